@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace cl {
+
+/// Number of worker threads for everything in the process; 0 = all cores. Call before the first parallel work.
+void set_thread_count(int count);
+[[nodiscard]] int thread_count();
+
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), on all workers; returns when all are done.
+/// The split depends on timing: results must not.
+void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
+
+/// One job at a time off the calling thread, in the order they were pushed.
+class WorkerQueue {
+public:
+    WorkerQueue();
+    ~WorkerQueue(); ///< waits for the jobs that were pushed
+    void push(std::function<void()> job);
+    void wait(); ///< until all pushed jobs are done
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace cl

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "servers/gi/probe_data.h"
+#include "core/image.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace cl::gi {
+
+/// Edge of a captured material map [texels].
+inline constexpr int kCaptureSize = 128;
+
+/// A material as the bake sees it: albedo and emission, sRGB-encoded numbers used as they are
+/// (spec gi-bake section 3). One texel or kCaptureSize^2 texels each, row 0 first.
+struct MaterialCapture {
+    std::vector<glm::vec3> albedo;
+    std::vector<glm::vec3> emission;
+};
+
+struct CaptureInput {
+    glm::vec3 albedo_color{1.0f};
+    const Image* albedo_texture = nullptr;   ///< null: none
+    glm::vec3 emission_color{0.0f};          ///< times energy
+    float emission_energy = 1.0f;
+    bool emission_multiply = false;
+    const Image* emission_texture = nullptr;
+};
+[[nodiscard]] MaterialCapture capture_material(const CaptureInput& input);
+
+/// Godot's cubic resize of RGBA8 (spec gi-bake section 3), byte for byte.
+[[nodiscard]] Image resize_cubic_rgba8(const Image& image, glm::ivec2 size);
+
+/// Triangles to plot: one surface of one instance. Spans live until bake() returns.
+struct PlotSurface {
+    Transform local_from_mesh;                ///< probe-local [m] from mesh
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;       ///< mesh space, empty = none
+    std::span<const glm::vec2> uvs;           ///< empty = none
+    std::span<const uint32_t> indices;        ///< empty = consecutive vertices; leftovers are dropped
+    const MaterialCapture* material = nullptr;///< never null
+};
+
+/// Called between plot steps with the share done in [0, 1]; returning false cancels.
+using BakeProgress = std::function<bool(float)>;
+
+/// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6
+/// (what Godot 3.2.3 bakes, cell for cell).
+/// @return Cancelled if `progress` said so; OutOfMemory beyond kMaxCells.
+[[nodiscard]] Expected<Octree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces,
+                                        const BakeProgress& progress = {});
+inline constexpr uint32_t kMaxCells = 1u << 28;
+
+/// Separating-axis test of gi-bake section 4.1; touching counts as overlap. float32 throughout.
+[[nodiscard]] bool triangle_overlaps_box(const glm::vec3& center, const glm::vec3& half, const glm::vec3& a,
+                                         const glm::vec3& b, const glm::vec3& c) noexcept;
+
+} // namespace cl::gi
