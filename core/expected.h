@@ -23,6 +23,9 @@ struct SourceLocation {
     std::string file;
     int line = 0;
     int column = 0;
+
+    /// "file:line:column: ", leaving out the parts that are not known; empty if none is.
+    [[nodiscard]] std::string prefix() const;
 };
 
 /// What went wrong, for a person: one line, no newline at its end, "expected ..., found ..." where it fits.
