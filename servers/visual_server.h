@@ -125,9 +125,14 @@ public:
     [[nodiscard]] RasterizerInfo rasterizer_info() const;
     [[nodiscard]] Rasterizer& rasterizer(); ///< for tests
 
+    /// Empty once the server is gone: a holder of RIDs asks it before freeing them.
+    [[nodiscard]] std::weak_ptr<VisualServer> weak() const noexcept { return self_; }
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+    // Owns nothing, and is the last member: weak() is empty before anything else is torn down.
+    std::shared_ptr<VisualServer> self_{this, [](VisualServer*) {}};
 };
 
 } // namespace cl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "scene/resources/server_rid.h"
+
+#include "servers/gi/probe_data.h"
+
+#include "core/object/resource.h"
+#include "core/variant/variant.h"
+
+namespace cl::scene {
+
+/// What a GI bake made, and how it is shown (spec gi-probe-data section 2).
+class GIProbeData final : public Resource {
+public:
+    static constexpr std::string_view kClassName = "GIProbeData";
+    static void bind(ClassBuilder<GIProbeData>& c);
+
+    [[nodiscard]] const gi::ProbeData& data() const noexcept { return data_; }
+    /// Replaces everything; probes that show it start over.
+    void set_data(gi::ProbeData data);
+
+    // Read live by the renderer, without starting over.
+    void set_energy(float energy);
+    void set_bias(float bias_cells);
+    void set_normal_bias(float normal_bias_m);
+    void set_propagation(float propagation);
+    void set_interior(bool interior);
+    /// These two are read at the next set-up only.
+    void set_dynamic_range(int dynamic_range);
+    void set_compress(bool compress);
+
+    /// The probe in `server`, made on the first call. It keeps its RID; changes are passed on.
+    [[nodiscard]] RID rid(VisualServer& server) const;
+
+private:
+    /// Sends all data to the server again and tells the users.
+    void data_changed();
+
+    gi::ProbeData data_;
+    mutable ServerRID rid_;
+};
+
+} // namespace cl::scene
