@@ -1,0 +1,69 @@
+#pragma once
+
+#include "drivers/gl_api.h"
+
+#include "core/expected.h"
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <type_traits>
+
+namespace cl::gles3::gl {
+
+enum class BufferKind : uint8_t { Vertex, Index, Uniform };
+enum class BufferUsage : uint8_t { Static, Dynamic };
+
+struct BufferDesc {
+    BufferKind kind = BufferKind::Vertex;
+    BufferUsage usage = BufferUsage::Static;
+    std::string_view label{};
+};
+
+class Buffer {
+public:
+    /// Copies the bytes. @return OutOfMemory if the driver cannot hold them.
+    [[nodiscard]] static Expected<Buffer> create(const BufferDesc& desc, std::span<const std::byte> bytes);
+    /// Room for `size` bytes, undefined.
+    [[nodiscard]] static Expected<Buffer> create(const BufferDesc& desc, size_t size);
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    ~Buffer();
+
+    [[nodiscard]] GLuint id() const noexcept { return id_; }
+    [[nodiscard]] size_t size() const noexcept { return size_; }
+    /// Replaces bytes from `offset`. @return InvalidArgument beyond the end.
+    Status update(size_t offset, std::span<const std::byte> bytes);
+    /// Gives the old contents up and replaces all: cheaper than update() while draws may still read the old.
+    Status replace(std::span<const std::byte> bytes);
+
+private:
+    Buffer(GLuint id, BufferKind kind, BufferUsage usage, size_t size)
+        : id_(id), kind_(kind), usage_(usage), size_(size) {}
+    GLuint id_ = 0;
+    BufferKind kind_ = BufferKind::Vertex;
+    BufferUsage usage_ = BufferUsage::Static;
+    size_t size_ = 0;
+};
+
+/// A buffer with `count` copies of one uniform block (a struct generated from its std140 declaration).
+template <typename Block>
+class UniformBuffer {
+    static_assert(std::is_trivially_copyable_v<Block>);
+
+public:
+    [[nodiscard]] static Expected<UniformBuffer> create(int count = 1, std::string_view label = Block::kName);
+    Status set(const Block& block, int index = 0);
+    /// Makes copy `index` what programs see as this block, whichever programs they are.
+    void bind(int index = 0) const;
+
+private:
+    UniformBuffer(Buffer buffer, size_t stride) : buffer_(std::move(buffer)), stride_(stride) {}
+    Buffer buffer_;
+    size_t stride_; ///< sizeof(Block) rounded up to the driver's alignment [bytes]
+};
+
+} // namespace cl::gles3::gl
+
+#include "drivers/gles3/gl/uniform_buffer_inl.h"
