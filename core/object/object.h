@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,8 @@ enum class ConnectFlags : uint32_t { None = 0, Deferred = 1, Persist = 2, OneSho
 /// Not thread safe; used from the main thread.
 class Object {
 public:
+    static constexpr std::string_view kClassName = "Object";
+
     Object();
     virtual ~Object();
     Object(const Object&) = delete;
@@ -65,12 +68,15 @@ public:
 
     using Slot = std::function<void(std::span<const Variant>)>;
     /// Connects a callable; returns an id for disconnect(). InvalidArgument if the class has no such signal.
+    /// OneShot is honoured here. Deferred, Persist and ReferenceCounted are kept for their owner: an Object has no
+    /// queue, so the scene layer connects a slot that queues its call.
     Expected<uint64_t> connect(const StringName& signal, Slot slot, ConnectFlags flags = ConnectFlags::None);
     void disconnect(const StringName& signal, uint64_t id);
-    /// Calls the slots in order of connection. Slots may connect and disconnect while it runs.
+    /// Calls the slots in order of connection. Slots may connect, disconnect, emit and delete this object while it
+    /// runs: one that is disconnected in time is not called, one that is connected is called from the next time.
     void emit_signal(const StringName& signal, std::span<const Variant> arguments = {});
 
-    /// Weak identity: stays valid to ask after the object is gone (see ObjectHandle).
+    /// Weak identity: expires with the object.
     [[nodiscard]] std::weak_ptr<Object*> handle() const;
 
 protected:
@@ -87,6 +93,9 @@ private:
         Slot slot;
         ConnectFlags flags;
     };
+    void keep_extra(const StringName& property, const Variant& value);
+    const PropertyValue* find_extra(const StringName& property) const noexcept;
+
     StringName declared_class_;
     std::vector<PropertyValue> extra_;
     std::vector<Connection> connections_;

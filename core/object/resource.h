@@ -2,7 +2,11 @@
 
 #include "core/object/object.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace cl {
 
@@ -24,7 +28,7 @@ public:
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     void set_path(std::string path) { path_ = std::move(path); }
 
-    /// Called when a property changed in a way that users of the resource must see; ids as for signals.
+    /// Called when a property changed in a way that users of the resource must see: the signal "changed".
     uint64_t on_changed(std::function<void()> f);
     void remove_on_changed(uint64_t id);
 
@@ -35,8 +39,6 @@ private:
     std::string name_;
     std::string path_;
     bool local_to_scene_ = false;
-    std::vector<std::pair<uint64_t, std::function<void()>>> changed_;
-    uint64_t next_changed_ = 1;
 };
 
 } // namespace cl
