@@ -1,0 +1,82 @@
+#include "demo/cli/figures.h"
+
+#include "demo/cli/options.h"
+
+#include "core/io/file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <iostream>
+
+#include <sys/resource.h>
+
+namespace cl::demo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json probe_json(const ProbeFigures& probe) {
+    return {{"path", probe.path},   {"size", {probe.size.x, probe.size.y, probe.size.z}},
+            {"cells", probe.cells}, {"leaves", probe.leaves},
+            {"bake_ms", number_or_null(probe.bake_ms)}, {"bytes", probe.bytes}};
+}
+
+int64_t now_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+} // namespace
+
+std::string to_json(const Figures& f) {
+    Json probes = Json::array();
+    for (const ProbeFigures& probe : f.probes) {
+        probes.push_back(probe_json(probe));
+    }
+    const Json json = {{"conelight", kVersion},
+                       {"scene", f.scene},
+                       {"driver", f.driver},
+                       {"renderer", f.renderer},
+                       {"size", {f.size.x, f.size.y}},
+                       {"gi", f.gi},
+                       {"threads", f.threads},
+                       {"load_ms", number_or_null(f.load_ms)},
+                       {"bake_ms", number_or_null(f.bake_ms)},
+                       {"relight_ms", number_or_null(f.relight_ms)},
+                       {"upload_ms", number_or_null(f.upload_ms)},
+                       {"frame_ms", number_or_null(f.frame_ms)},
+                       {"gi_ms", number_or_null(f.gi_ms)},
+                       {"total_ms", number_or_null(f.total_ms)},
+                       {"peak_rss_mib", f.peak_rss_mib},
+                       {"probes", probes},
+                       {"draw_calls", f.draw_calls},
+                       {"triangles", f.triangles},
+                       {"lights", f.lights},
+                       {"warnings", f.warnings}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Status write_json(const std::string& json, const std::filesystem::path& path) {
+    if (path == "-") {
+        std::cout << json << std::flush;
+        return {};
+    }
+    return write_file_atomic(path, json);
+}
+
+double peak_rss_mib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0; // ru_maxrss is in KiB on Linux
+}
+
+Stopwatch::Stopwatch() : start_ns_(now_ns()) {}
+
+double Stopwatch::elapsed_ms() const { return static_cast<double>(now_ns() - start_ns_) * 1e-6; }
+
+} // namespace cl::demo
