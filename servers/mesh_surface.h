@@ -37,7 +37,7 @@ struct MeshSurface {
     AABB aabb;
 };
 
-/// Where each array lies in an interleaved vertex. Offset -1: absent.
+/// Where each array lies in an interleaved vertex, spec tscn section 9.1. Offset -1: absent.
 struct VertexLayout {
     int stride = 0; ///< [bytes]
     int vertex = -1, normal = -1, tangent = -1, color = -1, uv = -1, uv2 = -1, bones = -1, weights = -1;
@@ -59,19 +59,28 @@ struct SurfaceArrays {
 };
 
 /// Packs arrays with Godot's default compression (int8 normals and tangents, uint8 colours, truncated half UVs).
-/// @return InvalidArgument if there are no positions or an array's length does not match them, or an index is
-///         out of range.
+/// @param compression  compressed bits; those of absent arrays are kept in the format, as Godot does.
+/// @return InvalidArgument if there are no positions or an array's length does not match them, bones come without
+///         weights (or the reverse), a bone is not in 0..65535, or an index is out of range.
+/// Source: spec tscn section 9.1.
 [[nodiscard]] Expected<MeshSurface> encode_surface(const SurfaceArrays& arrays, PrimitiveType primitive,
                                                    uint32_t compression = surface_format::kDefaultCompression);
 
-/// Unpacks a surface: the values the GPU would read (int8 / 127 etc.).
-/// @return ParseError if byte sizes do not match the format, or an index is out of range.
+/// Unpacks a surface: the values the GPU would read (int8 / 127 etc.). Vertices of 2D surfaces get z = 0.
+/// @return what validate_surface() says of it, if that is an error.
 [[nodiscard]] Expected<SurfaceArrays> decode_surface(const MeshSurface& surface);
 
 /// Checks sizes, counts and index range without decoding.
+/// @return ParseError "surface: expected ..., found ..." if byte sizes do not match the format, or an index is out
+///         of range.
 [[nodiscard]] Status validate_surface(const MeshSurface& surface);
 
-/// IEEE half from float as Godot does it: mantissa truncated, below 2^-14 to 0, from 65536 to infinity.
+/// Old files stored a compressed 3D vertex in 6 bytes; gives those vertices the 8 bytes of vertex_layout().
+/// Anything else is left alone, so that it may be called on every surface read from a file (spec tscn section 9.1).
+void widen_old_vertices(MeshSurface& surface);
+
+/// IEEE half from float as Godot does it: mantissa truncated, below 2^-14 to 0, from 65536 to infinity. NaN stays
+/// NaN (spec tscn section 9.1).
 [[nodiscard]] uint16_t half_from_float_truncated(float v) noexcept;
 [[nodiscard]] float float_from_half(uint16_t h) noexcept;
 
