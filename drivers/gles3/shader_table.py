@@ -36,3 +36,87 @@ usampler3D. The C++ side of copy.glsl:
 
 The struct's name is the file's in PascalCase (tone_map.glsl: ToneMap), flags are kPascalCase constants.
 """
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import shader_emit
+from shader_parse import STAGES, ShaderError, read_program
+from shader_reflect import reflect
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+LOCATION = re.compile(r"^(ERROR|WARNING): (\d+):(\d+): (.*)$")
+
+
+def included_files(path):
+    """The .glsl files that a program's text is made of, for the build's dependencies."""
+    try:
+        return [str(ROOT / f) for f in read_program(path, ROOT).files]
+    except ShaderError:
+        return [str(path)]  # check() will say what is wrong
+
+
+def complaints(output, files):
+    """glslangValidator's `ERROR: 1:12: text` as `file:12: error: text`, without what follows from the first."""
+    found, lines = [], output.split("\n")
+    for line, following in zip(lines, lines[1:] + [""]):
+        if m := LOCATION.match(line):
+            file = files[int(m[2])] if int(m[2]) < len(files) else files[0]
+            if "compilation terminated" not in line and not (found and "missing #endif" in line):
+                found.append(f"{file}:{m[3]}: {m[1].lower()}: {' '.join(m[4].split())}")
+        elif line.startswith("ERROR: Linking") and not found:
+            found.append(f"{files[0]}:1: error: {line[7:]} {' '.join(following.split())}")
+    return found
+
+
+def check_variant(program, flags):
+    """Compiles and links one variant with glslangValidator; returns its complaints."""
+    with tempfile.TemporaryDirectory() as folder:
+        names = []
+        for stage in STAGES:
+            name = Path(folder) / f"{program.name}.{stage[:4]}"
+            name.write_text(shader_emit.preamble(flags) + program.stages[stage].text(), encoding="utf-8")
+            names.append(str(name))
+        run = subprocess.run(["glslangValidator", "-l"] + names, capture_output=True, text=True, check=False)
+    lines = complaints(run.stdout, program.files)
+    if run.returncode and not lines:
+        lines = [f"{program.files[0]}:1: error: glslangValidator failed: {run.stdout}{run.stderr}"]
+    return [f"{line} [variant: {' '.join(flags) or 'none'}]" for line in lines]
+
+
+def check(stamp, path):
+    """Fails unless every `#pragma validate` variant of a program is right; then writes the stamp."""
+    program = read_program(path, ROOT)
+    reflect(program)
+    faults = [f for flags in program.validate for f in check_variant(program, flags)]
+    if faults:
+        print("\n".join(faults), file=sys.stderr)
+        return 1
+    Path(stamp).write_text(f"{len(program.validate)} variants\n", encoding="utf-8")
+    return 0
+
+
+def table(header, source, paths):
+    programs = [(p, reflect(p)) for p in (read_program(path, ROOT) for path in sorted(paths))]
+    Path(header).write_text(shader_emit.header(programs), encoding="utf-8")
+    Path(source).write_text(shader_emit.source(programs), encoding="utf-8")
+    return 0
+
+
+def main(arguments):
+    try:
+        if len(arguments) == 3 and arguments[0] == "check":
+            return check(arguments[1], arguments[2])
+        if len(arguments) > 3 and arguments[0] == "table":
+            return table(arguments[1], arguments[2], arguments[3:])
+    except ShaderError as error:
+        print(error, file=sys.stderr)
+        return 1
+    print("usage: shader_table.py check STAMP FILE.glsl | table SHADERS_H SHADERS_CPP FILE.glsl...", file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -67,7 +67,7 @@ class ShaderProgram {
 public:
     /// @param flags  Shader's kXxx constants or-ed together
     [[nodiscard]] static Expected<ShaderProgram> create(uint32_t flags = 0) {
-        Expected<Program> program = Program::create(Shader::source(), flags);
+        Expected<Program> program = Program::create(Shader::shader_source(), flags);
         if (!program) {
             return program.error();
         }
