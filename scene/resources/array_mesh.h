@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/resources/explains_refusal.h"
 #include "scene/resources/mesh.h"
 
 #include "core/expected.h"
@@ -11,7 +12,7 @@
 namespace cl::scene {
 
 /// A mesh of stored surfaces (spec tscn section 9): what imports and the text format give.
-class ArrayMesh final : public Mesh {
+class ArrayMesh final : public Mesh, public ExplainsRefusal {
 public:
     static constexpr std::string_view kClassName = "ArrayMesh";
     static void bind(ClassBuilder<ArrayMesh>& c);
@@ -37,8 +38,7 @@ public:
     [[nodiscard]] Ref<Material> surface_material(int surface) const override;
     [[nodiscard]] std::span<const std::string> blend_shape_names() const override { return blend_shape_names_; }
 
-    /// Why the last assignment of `surfaces/<i>` was refused; empty if it was not.
-    [[nodiscard]] const std::string& last_refusal() const noexcept { return last_refusal_; }
+    [[nodiscard]] const std::string& refusal() const noexcept override { return refusal_; }
 
 protected:
     SetResult set_dynamic(const StringName& property, const Variant& value) override;
@@ -46,14 +46,15 @@ protected:
     void list_dynamic(std::vector<PropertyValue>& out) const override;
 
 private:
-    SetResult set_surface_from_dictionary(std::string_view index, const Variant& value);
+    SetResult set_surface(std::string_view index, const Variant& value);
+    SetResult set_blend_shape_names(const Variant& value);
     SetResult refuse(std::string why);
 
     std::vector<MeshSurface> surfaces_;
     std::vector<SurfaceExtras> extras_; ///< one a surface
     std::vector<std::string> blend_shape_names_;
     int blend_shape_mode_ = 1;
-    std::string last_refusal_;
+    std::string refusal_;
 };
 
 } // namespace cl::scene

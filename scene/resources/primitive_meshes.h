@@ -7,17 +7,25 @@
 
 namespace cl::scene {
 
+/// A number in a file must not take the memory of the machine.
+inline constexpr double kMaxShapeVertices = 4.0e6;
+
 /// A primitive mesh whose parameters are a Shape struct. Each class below binds the struct's fields as properties.
 template <typename Shape>
 class ShapeMesh : public PrimitiveMesh {
 public:
     ShapeMesh() = default;
-    explicit ShapeMesh(const Shape& shape) : shape_(shape) {}
+    explicit ShapeMesh(const Shape& shape) { set_shape(shape); }
     [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
-    /// Values out of range are taken to the nearest that makes a shape when it is built.
-    void set_shape(const Shape& shape) {
-        shape_ = shape;
+    /// Counts below their least are taken to it; Refused beyond kMaxShapeVertices.
+    SetResult set_shape(const Shape& shape) {
+        const Shape wanted = sanitized(shape);
+        if (vertex_count(wanted) > kMaxShapeVertices) {
+            return SetResult::Refused;
+        }
+        shape_ = wanted;
         shape_changed();
+        return SetResult::Done;
     }
 
 protected:

@@ -39,6 +39,25 @@ struct CapsuleShape {
     int radial_segments = 64, rings = 8;
 };
 
+/// Counts taken to the least that makes a shape (4 segments around, 1 ring of a sphere, ...), as Godot does.
+[[nodiscard]] CubeShape sanitized(CubeShape shape) noexcept;
+[[nodiscard]] SphereShape sanitized(SphereShape shape) noexcept;
+[[nodiscard]] PlaneShape sanitized(PlaneShape shape) noexcept;
+[[nodiscard]] QuadShape sanitized(QuadShape shape) noexcept;
+[[nodiscard]] PrismShape sanitized(PrismShape shape) noexcept;
+[[nodiscard]] CylinderShape sanitized(CylinderShape shape) noexcept;
+[[nodiscard]] CapsuleShape sanitized(CapsuleShape shape) noexcept;
+
+/// Vertices that make_shape() gives for a sanitized shape, at most; a double, so that it cannot overflow.
+[[nodiscard]] double vertex_count(const CubeShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const SphereShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const PlaneShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const QuadShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const PrismShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const CylinderShape& shape) noexcept;
+[[nodiscard]] double vertex_count(const CapsuleShape& shape) noexcept;
+
+/// The shape must be sanitized.
 [[nodiscard]] SurfaceArrays make_shape(const CubeShape& shape);
 [[nodiscard]] SurfaceArrays make_shape(const SphereShape& shape);
 [[nodiscard]] SurfaceArrays make_shape(const PlaneShape& shape);
