@@ -1,0 +1,47 @@
+// tone_map.glsl -- scene radiance to the picture: exposure, tone mapper, sRGB, adjustments, 8 bits
+// output   sRGB-encoded, quantised downwards to n / 255 from halves (spec scene-classes section 14.11), so that the
+//          target's own rounding keeps the value
+#pragma flags REINHARD FILMIC ACES ADJUST
+#pragma validate
+#pragma validate REINHARD
+#pragma validate FILMIC ADJUST
+#pragma validate ACES
+
+#pragma stage vertex
+#include "lib/fullscreen.glsl"
+void main() {
+    fullscreen_position();
+}
+
+#pragma stage fragment
+#include "lib/color_space.glsl"
+#include "lib/tone_map.glsl"
+layout(location = 0) out vec4 out_color;
+uniform sampler2D radiance;
+uniform float exposure;
+uniform float white;
+uniform vec3 brightness_contrast_saturation;
+
+#if defined(REINHARD)
+const int kMode = 1;
+#elif defined(FILMIC)
+const int kMode = 2;
+#elif defined(ACES)
+const int kMode = 3;
+#else
+const int kMode = 0;
+#endif
+
+float to_half(float v) {
+    return unpackHalf2x16(packHalf2x16(vec2(v, 0.0))).x;
+}
+
+void main() {
+    vec3 color = texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb * exposure;
+    vec3 encoded = srgb_from_linear(tone_map(color, kMode, white));
+#ifdef ADJUST
+    encoded = clamp(adjust(encoded, brightness_contrast_saturation), 0.0, 1.0);
+#endif
+    vec3 half_precision = vec3(to_half(encoded.r), to_half(encoded.g), to_half(encoded.b));
+    out_color = vec4(floor(half_precision * 255.0) / 255.0, 1.0);
+}
