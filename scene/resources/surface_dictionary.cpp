@@ -6,6 +6,8 @@
 
 namespace cl::scene {
 
+using namespace std::string_view_literals;
+
 namespace {
 
 Error parse_error(std::string message) {
@@ -52,16 +54,16 @@ Expected<PrimitiveType> primitive_entry(const Dictionary& d) {
 
 ArrayMesh::SurfaceExtras read_extras(const Dictionary& d) {
     ArrayMesh::SurfaceExtras extras;
-    if (const Variant* name = d.find("name")) {
+    if (const Variant* name = d.find("name"sv)) {
         extras.name = name->to_text();
     }
-    if (const Variant* material = d.find("material")) {
+    if (const Variant* material = d.find("material"sv)) {
         extras.material = Ref<Material>(dynamic_cast<Material*>(material->to_object()));
     }
-    if (const Variant* shapes = d.find("blend_shape_data"); shapes && shapes->get_if<Array>()) {
+    if (const Variant* shapes = d.find("blend_shape_data"sv); shapes && shapes->get_if<Array>()) {
         extras.blend_shape_data = *shapes->get_if<Array>();
     }
-    if (const Variant* boxes = d.find("skeleton_aabb"); boxes && boxes->get_if<Array>()) {
+    if (const Variant* boxes = d.find("skeleton_aabb"sv); boxes && boxes->get_if<Array>()) {
         extras.skeleton_aabbs = *boxes->get_if<Array>();
     }
     return extras;
@@ -109,7 +111,7 @@ Expected<StoredSurface> from_packed(const Dictionary& d) {
     surface.vertex_count = *vertex_count;
     surface.aabb = **aabb;
     surface.vertices.assign((*vertices)->span().begin(), (*vertices)->span().end());
-    if (d.find("index_count")) {
+    if (d.find("index_count"sv)) {
         const Expected<uint32_t> index_count = count_entry(d, "index_count");
         if (!index_count) {
             return index_count.error();
@@ -137,7 +139,7 @@ Expected<StoredSurface> from_arrays(const Dictionary& d, const Array& arrays) {
     if (!primitive) {
         return primitive.error();
     }
-    const Variant* morphs = d.find("morph_arrays");
+    const Variant* morphs = d.find("morph_arrays"sv);
     if (!morphs || !morphs->get_if<Array>()) {
         return wrong_entry("morph_arrays", "an Array", morphs); // Godot drops a surface without it, too
     }
@@ -170,7 +172,7 @@ Expected<StoredSurface> from_arrays(const Dictionary& d, const Array& arrays) {
 } // namespace
 
 Expected<StoredSurface> surface_from_dictionary(const Dictionary& dictionary) {
-    if (const Variant* arrays = dictionary.find("arrays")) {
+    if (const Variant* arrays = dictionary.find("arrays"sv)) {
         const Array* list = arrays->get_if<Array>();
         return list ? from_arrays(dictionary, *list)
                     : Expected<StoredSurface>(wrong_entry("arrays", "an Array", arrays));
