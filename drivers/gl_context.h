@@ -4,12 +4,12 @@
 
 #include "core/expected.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include <glm/vec2.hpp>
 
 namespace cl::drivers {
 
@@ -35,7 +35,8 @@ public:
     [[nodiscard]] virtual DriverKind kind() const noexcept = 0;
     /// Directs all GL calls of this thread here. Entry points are reloaded if another driver's were in place.
     [[nodiscard]] Status make_current();
-    /// Size of the window's framebuffer [pixels]; (0, 0) off screen, where framebuffer 0 must not be drawn to.
+    /// Size of the window's framebuffer [pixels]; (0, 0) off screen, where framebuffer 0 must not be drawn
+    /// to.
     [[nodiscard]] virtual glm::ivec2 size() const = 0;
     /// Shows what was drawn to framebuffer 0; nothing off screen.
     virtual void swap() {}
@@ -46,7 +47,7 @@ public:
     /// output. Each was logged. Tests expect 0.
     [[nodiscard]] int error_count();
 
-    [[nodiscard]] const std::string& renderer() const noexcept { return renderer_; } ///< GL_RENDERER
+    [[nodiscard]] const std::string& renderer() const noexcept { return renderer_; }       ///< GL_RENDERER
     [[nodiscard]] const std::string& api_version() const noexcept { return api_version_; } ///< GL_VERSION
 
 protected:
@@ -59,6 +60,7 @@ private:
     friend Expected<std::unique_ptr<GLContext>> finish_context(std::unique_ptr<GLContext> context);
     Status load_entry_points();
     void enable_debug_output();
+    void count_error(std::string_view text);
 
     std::string renderer_, api_version_;
     bool has_debug_output_ = false;
@@ -73,7 +75,8 @@ struct WindowDesc {
 
 /// Starts one driver and makes its context current.
 /// @return Unsupported with one line that says what is missing ("egl: ...").
-[[nodiscard]] Expected<std::unique_ptr<GLContext>> create_context(DriverKind kind, const WindowDesc& window = {});
+[[nodiscard]] Expected<std::unique_ptr<GLContext>> create_context(DriverKind kind,
+                                                                  const WindowDesc& window = {});
 
 /// The first off-screen driver that starts: egl, then osmesa. Never opens a window.
 /// @return Unsupported with what each driver said.

@@ -1,24 +1,44 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include <array>
 #include <bitset>
 #include <cstdint>
 #include <string_view>
 
-#include <glm/vec2.hpp>
-
 namespace cl::drivers {
 
 /// The keys a viewer needs; names are those of the US layout's key caps.
-enum class Key : uint8_t { W, A, S, D, Q, E, Up, Down, Left, Right, Space, Shift, Control, Escape, Tab, R, F, P };
+enum class Key : uint8_t {
+    W,
+    A,
+    S,
+    D,
+    Q,
+    E,
+    Up,
+    Down,
+    Left,
+    Right,
+    Space,
+    Shift,
+    Control,
+    Escape,
+    Tab,
+    R,
+    F,
+    P
+};
 inline constexpr int kKeyCount = 18;
 enum class MouseButton : uint8_t { Left, Right, Middle };
 
-/// What the user did up to and in one poll(). A key that went down and up between two polls counts as pressed.
+/// What the user did up to and in one poll(). A key that went down and up between two polls counts as
+/// pressed.
 struct InputState {
-    std::bitset<kKeyCount> down;    ///< held now
-    std::bitset<kKeyCount> pressed; ///< went down since the last poll
-    std::bitset<3> buttons;         ///< held now
+    std::bitset<kKeyCount> down;     ///< held now
+    std::bitset<kKeyCount> pressed;  ///< went down since the last poll
+    std::bitset<3> buttons;          ///< held now
     glm::vec2 mouse_motion_px{0.0f}; ///< since the last poll; +x right, +y down
     float scroll = 0.0f;             ///< since the last poll [notches], + is away from the user
     bool resized = false;            ///< the framebuffer's size changed since the last poll

@@ -13,8 +13,8 @@
 
 namespace cl::gles3 {
 
-/// The light volumes of GI probes: RGBA8 with mips, trilinear and linear between mips, clamped to the edge, LOD
-/// clamped to the last level (spec gi-shading section 4.1).
+/// The light volumes of GI probes: RGBA8 with mips, trilinear and linear between mips, clamped to the edge,
+/// LOD clamped to the last level (spec gi-shading section 4.1).
 class GIVolumeStorage {
 public:
     /// A 1-cell volume of zeros for unused samplers: every sampler of a draw must have a texture.

@@ -21,9 +21,9 @@ struct StoredSurface {
     gl::Buffer vertices;
     std::optional<gl::Buffer> indices; ///< empty: not indexed
     gl::VertexArray vertex_array;
-    gl::DrawRange range;               ///< the whole surface
-    uint32_t format = 0;               ///< surface_format bits: which attributes there are
-    int64_t triangles = 0;             ///< for statistics; 0 of points and lines
+    gl::DrawRange range;   ///< the whole surface
+    uint32_t format = 0;   ///< surface_format bits: which attributes there are
+    int64_t triangles = 0; ///< for statistics; 0 of points and lines
 };
 
 struct StoredMesh {

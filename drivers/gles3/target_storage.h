@@ -16,13 +16,13 @@ namespace cl::gles3 {
 
 /// What a viewport is drawn into: scene radiance with depth, and the picture that tone mapping makes of it.
 struct RenderTarget {
-    glm::ivec2 size{0};          ///< [pixels]
-    gl::Texture2D radiance;      ///< RGBA16F, linear [W m^-2 sr^-1]; nearest, clamped
-    gl::Texture2D depth;         ///< Depth24; nearest, clamped
-    gl::Framebuffer scene;       ///< radiance + depth
-    gl::Framebuffer depth_only;  ///< depth alone, for the depth prepass
+    glm::ivec2 size{0};                   ///< [pixels]
+    gl::Texture2D radiance;               ///< RGBA16F, linear [W m^-2 sr^-1]; nearest, clamped
+    gl::Texture2D depth;                  ///< Depth24; nearest, clamped
+    gl::Framebuffer scene;                ///< radiance + depth
+    gl::Framebuffer depth_only;           ///< depth alone, for the depth prepass
     std::optional<gl::Texture2D> picture; ///< RGBA8, sRGB-encoded by the shader; empty for the window
-    gl::Framebuffer output;      ///< the picture, or the window's framebuffer
+    gl::Framebuffer output;               ///< the picture, or the window's framebuffer
 };
 
 class TargetStorage {

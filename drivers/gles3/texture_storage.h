@@ -23,11 +23,12 @@ class TextureStorage {
 public:
     [[nodiscard]] static Expected<TextureStorage> create();
 
-    /// Makes RGBA8 (sRGB-decoded on sampling if `space` says so; alpha never) or RGBA16F of float images; grey and
-    /// alpha are expanded here, as GLES 3.0 has no luminance formats that can be sRGB. Floats beyond half's range
-    /// become its largest value.
+    /// Makes RGBA8 (sRGB-decoded on sampling if `space` says so; alpha never) or RGBA16F of float images;
+    /// grey and alpha are expanded here, as GLES 3.0 has no luminance formats that can be sRGB. Floats beyond
+    /// half's range become its largest value.
     /// @return InvalidArgument if the data does not fill the size, Unsupported beyond the driver's limit.
-    [[nodiscard]] Expected<RID> create(const Image& image, const TextureParams& params, TextureColorSpace space);
+    [[nodiscard]] Expected<RID> create(const Image& image, const TextureParams& params,
+                                       TextureColorSpace space);
     /// nullptr if stale.
     [[nodiscard]] const gl::Texture2D* get(RID rid) const noexcept { return textures_.get(rid); }
     /// The texture, or the stand-in where the RID is null or stale.

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <type_traits>
+#include <utility>
 
 namespace cl::gles3::gl {
 

@@ -5,7 +5,8 @@
 
 namespace cl::gles3::gl {
 
-/// What the current context offers beyond, or instead of, GLES 3.0's minimum. Asked once, when a State is made.
+/// What the current context offers beyond, or instead of, GLES 3.0's minimum. Asked once, when a State is
+/// made.
 struct Capabilities {
     bool desktop = false;            ///< OpenGL core profile, not ES: see workarounds.h
     bool color_buffer_float = false; ///< RGBA16F, R11F_G11F_B10F, RGBA32F can be rendered to
@@ -16,7 +17,7 @@ struct Capabilities {
     int max_texture_3d_size = 256;   ///< 3D edge [texels]
     int max_cube_size = 2048;        ///< [texels]
     int max_array_layers = 256;
-    int max_texture_units = 16;      ///< of the fragment stage
+    int max_texture_units = 16; ///< of the fragment stage
     int max_color_attachments = 4;
     int uniform_offset_alignment = 256; ///< of a block's start in its buffer [bytes]
     int max_uniform_block_bytes = 16384;

@@ -2,9 +2,9 @@
 
 #include "drivers/gl_api.h"
 
-#include <cstdint>
-
 #include <glm/vec2.hpp>
+
+#include <cstdint>
 
 namespace cl::gles3::gl {
 
@@ -22,9 +22,11 @@ struct Blend {
 namespace blend {
 inline constexpr Blend kReplace{};
 /// Straight alpha over.
-inline constexpr Blend kMix{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+inline constexpr Blend kMix{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                            GL_ONE_MINUS_SRC_ALPHA};
 /// Premultiplied alpha over.
-inline constexpr Blend kPremultiplied{GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+inline constexpr Blend kPremultiplied{GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                                      GL_ONE_MINUS_SRC_ALPHA};
 /// Sum, weighted by the source's alpha.
 inline constexpr Blend kAdd{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE, GL_SRC_ALPHA, GL_ONE};
 /// Target minus source, weighted by the source's alpha.

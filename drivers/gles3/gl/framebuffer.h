@@ -1,9 +1,8 @@
 #pragma once
 
+#include "drivers/gl_api.h"
 #include "drivers/gles3/gl/draw_state.h"
 #include "drivers/gles3/gl/texture.h"
-
-#include "drivers/gl_api.h"
 
 #include "core/expected.h"
 

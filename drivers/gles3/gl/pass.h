@@ -5,11 +5,11 @@
 #include "drivers/gles3/gl/program.h"
 #include "drivers/gles3/gl/vertex_array.h"
 
+#include <glm/vec4.hpp>
+
 #include <array>
 #include <optional>
 #include <string_view>
-
-#include <glm/vec4.hpp>
 
 namespace cl::gles3::gl {
 
@@ -46,7 +46,8 @@ public:
     Pass(const Pass&) = delete;
     Pass& operator=(const Pass&) = delete;
 
-    void draw(const Program& program, const VertexArray& vertices, const DrawState& state, const DrawRange& range);
+    void draw(const Program& program, const VertexArray& vertices, const DrawState& state,
+              const DrawRange& range);
     /// One triangle that covers the viewport; the program's vertex stage is lib/fullscreen.glsl.
     void draw_fullscreen(const Program& program, const VertexArray& empty,
                          const DrawState& state = kFullscreenState);

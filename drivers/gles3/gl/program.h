@@ -1,11 +1,16 @@
 #pragma once
 
+#include "drivers/gl_api.h"
 #include "drivers/gles3/gl/shader_source.h"
 #include "drivers/gles3/gl/texture.h"
 
-#include "drivers/gl_api.h"
-
 #include "core/expected.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <map>
@@ -14,16 +19,10 @@
 #include <utility>
 #include <vector>
 
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 namespace cl::gles3::gl {
 
-/// A linked program. Locations are looked up once; samplers and blocks are tied to their fixed units and binding
-/// points when it is made. Use ShaderProgram below, which checks names and types at build time.
+/// A linked program. Locations are looked up once; samplers and blocks are tied to their fixed units and
+/// binding points when it is made. Use ShaderProgram below, which checks names and types at build time.
 class Program {
 public:
     /// Compiles one variant. @param flags  bits of source.flags to #define
@@ -81,7 +80,8 @@ public:
     /// At most `uniform.count` values; the rest keep theirs.
     template <typename T>
     void set(UniformArray<Shader, T> uniform, std::span<const std::type_identity_t<T>> values) const {
-        CL_ASSERT(values.size() <= static_cast<size_t>(uniform.count), "more values than the uniform array has");
+        CL_ASSERT(values.size() <= static_cast<size_t>(uniform.count),
+                  "more values than the uniform array has");
         program_.set_uniform(uniform.index, values);
     }
     /// Binds a texture for the draws to come, whichever program does them.
@@ -104,7 +104,8 @@ template <typename Shader>
 class ShaderVariants {
 public:
     /// @param flags  Shader's kXxx constants or-ed together
-    /// Pointers stay valid for the life of this object. An error is returned again each time, not compiled again.
+    /// Pointers stay valid for the life of this object. An error is returned again each time, not compiled
+    /// again.
     [[nodiscard]] Expected<const ShaderProgram<Shader>*> get(uint32_t flags) {
         auto found = variants_.find(flags);
         if (found == variants_.end()) {

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "drivers/gl_api.h"
 #include "drivers/gles3/gl/capabilities.h"
 #include "drivers/gles3/gl/draw_state.h"
-
-#include "drivers/gl_api.h"
 
 #include <array>
 #include <cstdint>
@@ -19,8 +18,8 @@ inline constexpr int kObjectKinds = 6;
 /// calls are skipped; nobody else may change these parts of GL state. One State per context, on one thread.
 class State {
 public:
-    /// Needs a current context. Applies the workarounds and sets what is the same for all our drawing; becomes
-    /// current().
+    /// Needs a current context. Applies the workarounds and sets what is the same for all our drawing;
+    /// becomes current().
     State();
     /// Every object must have been deleted before.
     ~State();
@@ -33,7 +32,8 @@ public:
     void make_current() noexcept;
     [[nodiscard]] const Capabilities& capabilities() const noexcept { return capabilities_; }
 
-    // --- names: used by the RAII types of this folder only -----------------------------------------------------
+    // --- names: used by the RAII types of this folder only
+    // -----------------------------------------------------
     [[nodiscard]] GLuint create(ObjectKind kind);
     /// 0 is ignored. Bindings of the name are forgotten, for GL uses names again.
     void destroy(ObjectKind kind, GLuint name);
@@ -41,7 +41,8 @@ public:
     /// Objects made and not yet deleted.
     [[nodiscard]] int live(ObjectKind kind) const noexcept { return live_[static_cast<size_t>(kind)]; }
 
-    // --- bindings ----------------------------------------------------------------------------------------------
+    // --- bindings
+    // ----------------------------------------------------------------------------------------------
     void use_program(GLuint program);
     void bind_vertex_array(GLuint vertex_array);
     /// For sampling. `target`: GL_TEXTURE_2D, _3D, _CUBE_MAP or _2D_ARRAY.
@@ -51,12 +52,14 @@ public:
     /// GL_ARRAY_BUFFER, GL_UNIFORM_BUFFER, GL_PIXEL_PACK_BUFFER... Element buffers belong to vertex arrays:
     /// bind_vertex_array() first.
     void bind_buffer(GLenum target, GLuint buffer);
-    /// A piece of a buffer as the uniform block of binding point `index`; offset aligned as capabilities() say.
+    /// A piece of a buffer as the uniform block of binding point `index`; offset aligned as capabilities()
+    /// say.
     void bind_uniform_range(int index, GLuint buffer, GLintptr offset, GLsizeiptr size);
     void bind_draw_framebuffer(GLuint framebuffer);
     void bind_read_framebuffer(GLuint framebuffer);
 
-    // --- fixed function ----------------------------------------------------------------------------------------
+    // --- fixed function
+    // ----------------------------------------------------------------------------------------
     void apply(const DrawState& state);
     void set_viewport(const Rect& rect);
     void set_scissor(const std::optional<Rect>& rect); ///< nullopt: off

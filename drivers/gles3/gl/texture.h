@@ -4,14 +4,14 @@
 
 #include "core/expected.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <utility>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace cl::gles3::gl {
 
@@ -113,7 +113,8 @@ private:
     Texture() = default;
 };
 
-/// Uploads take tightly packed texels of the format's transfer layout (format_info), x fastest, and copy them.
+/// Uploads take tightly packed texels of the format's transfer layout (format_info), x fastest, and copy
+/// them.
 class Texture2D final : public Texture {
 public:
     /// @return Unsupported if the size is 0, beyond the driver's limit, or memory ran out.

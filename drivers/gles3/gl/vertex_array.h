@@ -1,10 +1,9 @@
 #pragma once
 
+#include "drivers/gl_api.h"
 #include "drivers/gles3/gl/buffer.h"
 
 #include "servers/mesh_surface.h"
-
-#include "drivers/gl_api.h"
 
 #include <span>
 #include <string_view>
@@ -26,8 +25,8 @@ struct AttributeDesc {
     int offset = 0;          ///< [bytes]
 };
 
-/// The attributes of a surface in Godot's vertex layout, read by the GPU as they are stored: halves, int8 / 127
-/// (clamped to -1), uint8 / 255, uint16 / 65535.
+/// The attributes of a surface in Godot's vertex layout, read by the GPU as they are stored: halves, int8 /
+/// 127 (clamped to -1), uint8 / 255, uint16 / 65535.
 struct AttributeList {
     AttributeDesc items[kAttributeCount];
     int count = 0;
@@ -39,8 +38,8 @@ struct AttributeList {
 struct VertexArrayDesc {
     const Buffer* vertices = nullptr; ///< borrowed while the array lives
     std::span<const AttributeDesc> attributes;
-    int stride = 0;                   ///< [bytes]
-    const Buffer* indices = nullptr;  ///< likewise; nullptr: not indexed
+    int stride = 0;                  ///< [bytes]
+    const Buffer* indices = nullptr; ///< likewise; nullptr: not indexed
     IndexType index_type = IndexType::None;
     std::string_view label{};
 };
