@@ -4,7 +4,9 @@
 
 namespace cl {
 
-std::string Warning::to_string() const { return where.prefix() + "warning: " + message; }
+std::string Warning::to_string() const {
+    return where.prefix() + "warning: " + message;
+}
 
 void Diagnostics::warn(SourceLocation where, std::string message, const std::string& once_key) {
     if (!once_key.empty() && !said_.insert(once_key).second) {

@@ -19,6 +19,8 @@ std::string SourceLocation::prefix() const {
     return text;
 }
 
-std::string Error::to_string() const { return where.prefix() + "error: " + message; }
+std::string Error::to_string() const {
+    return where.prefix() + "error: " + message;
+}
 
 } // namespace cl

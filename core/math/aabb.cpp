@@ -6,7 +6,8 @@
 namespace cl {
 
 bool AABB::intersects_inclusive(const AABB& other) const noexcept {
-    return glm::all(glm::lessThanEqual(position, other.end())) && glm::all(glm::lessThanEqual(other.position, end()));
+    return glm::all(glm::lessThanEqual(position, other.end())) &&
+           glm::all(glm::lessThanEqual(other.position, end()));
 }
 
 bool AABB::intersects(const AABB& other) const noexcept {
@@ -40,6 +41,8 @@ AABB transformed(const Transform& xform, const AABB& box) noexcept {
     return {low, extent};
 }
 
-float Plane::distance_to(const glm::vec3& p) const noexcept { return glm::dot(normal, p) - d; }
+float Plane::distance_to(const glm::vec3& p) const noexcept {
+    return glm::dot(normal, p) - d;
+}
 
 } // namespace cl

@@ -1,11 +1,11 @@
 #include "core/math/transform.h"
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 namespace cl {
 namespace {
@@ -42,14 +42,15 @@ glm::mat3 basis_from_euler_yxz(const glm::vec3& euler_rad) noexcept {
     const float cz = std::cos(euler_rad.z), sz = std::sin(euler_rad.z);
     // Columns of the product Ry * Rx * Rz.
     return {glm::vec3(cy * cz + sy * sx * sz, cx * sz, cy * sx * sz - sy * cz),
-            glm::vec3(sy * sx * cz - cy * sz, cx * cz, sy * sz + cy * sx * cz), glm::vec3(sy * cx, -sx, cy * cx)};
+            glm::vec3(sy * sx * cz - cy * sz, cx * cz, sy * sz + cy * sx * cz),
+            glm::vec3(sy * cx, -sx, cy * cx)};
 }
 
 glm::vec3 euler_yxz_from_basis(const glm::mat3& basis) noexcept {
     constexpr float kHalfPi = std::numbers::pi_v<float> / 2.0f;
     const float sin_x = std::clamp(-basis[2][1], -1.0f, 1.0f);
-    // At the poles y and z turn about one axis: all of the turn is given to y. 1 - 1e-6 is where cos(x), known
-    // to float precision, no longer says anything about y and z.
+    // At the poles y and z turn about one axis: all of the turn is given to y. 1 - 1e-6 is where cos(x),
+    // known to float precision, no longer says anything about y and z.
     if (std::abs(sin_x) > 1.0f - 1e-6f) {
         const float sign = sin_x > 0.0f ? 1.0f : -1.0f;
         return {sign * kHalfPi, std::atan2(sign * basis[1][0], basis[0][0]), 0.0f};

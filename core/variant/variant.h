@@ -7,6 +7,8 @@
 #include "core/ref.h"
 #include "core/string_name.h"
 
+#include <glm/gtc/quaternion.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,8 +18,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <glm/gtc/quaternion.hpp>
 
 namespace cl {
 
@@ -46,7 +46,8 @@ public:
         return *block_;
     }
     friend bool operator==(const PoolArray& a, const PoolArray& b) {
-        return a.block_ == b.block_ || std::equal(a.span().begin(), a.span().end(), b.span().begin(), b.span().end());
+        return a.block_ == b.block_ ||
+               std::equal(a.span().begin(), a.span().end(), b.span().begin(), b.span().end());
     }
 
 private:
@@ -64,7 +65,8 @@ using PoolColorArray = PoolArray<Color>;
 /// Value semantics (unlike Godot's shared arrays): a copy is independent.
 using Array = std::vector<Variant>;
 
-/// Key-value pairs in insertion order; a key set twice keeps its place and takes the last value.
+/// Key-value pairs in insertion order; a key set twice keeps its place and takes the last value. Keys are the
+/// same if they have one type and equal values (1 and 1.0 are two keys; NaN is the same key as NaN).
 class Dictionary {
 public:
     using Entry = std::pair<Variant, Variant>;
@@ -74,11 +76,18 @@ public:
     [[nodiscard]] const Variant* find(const Variant& key) const noexcept;
     [[nodiscard]] const Variant* find(std::string_view key) const noexcept;
     [[nodiscard]] size_t size() const noexcept;
+    /// The same keys with equal values, in any order.
     friend bool operator==(const Dictionary&, const Dictionary&);
 
 private:
+    [[nodiscard]] size_t find_position(const Variant& key) const noexcept;
+    void add_to_index(size_t position);
+    void rebuild_index();
+
     std::vector<Entry> entries_;
-    // With more than a few entries look-up goes through an index; see variant.cpp.
+    // Open-addressing hash table: 0 is a free slot, n stands for entry n - 1. Empty while there are few
+    // entries.
+    std::vector<uint32_t> index_;
 };
 
 /// The `RID( n )` of a text file: a bare number without meaning outside the program that wrote it.
@@ -109,15 +118,40 @@ private:
 /// Any value that the text scene format can hold (scene format 2 of Godot 3).
 class Variant {
 public:
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow" // GCC 12 takes scoped enumerators for shadows of the aliases above
     /// Numbers are Godot 3's own type numbers, as stored in binary files.
     enum class Type : uint8_t {
-        Nil = 0, Bool, Int, Real, String,
-        Vector2, Rect2, Vector3, Transform2D, Plane, Quat, AABB, Basis, Transform,
-        Color, NodePath, RID, Object, Dictionary, Array,
-        PoolByteArray, PoolIntArray, PoolRealArray, PoolStringArray, PoolVector2Array, PoolVector3Array,
+        Nil = 0,
+        Bool,
+        Int,
+        Real,
+        String,
+        Vector2,
+        Rect2,
+        Vector3,
+        Transform2D,
+        Plane,
+        Quat,
+        AABB,
+        Basis,
+        Transform,
+        Color,
+        NodePath,
+        RID,
+        Object,
+        Dictionary,
+        Array,
+        PoolByteArray,
+        PoolIntArray,
+        PoolRealArray,
+        PoolStringArray,
+        PoolVector2Array,
+        PoolVector3Array,
         PoolColorArray,
         Count,
     };
+#pragma GCC diagnostic pop
 
     Variant() noexcept = default;
     Variant(std::nullptr_t) noexcept {}
@@ -156,12 +190,18 @@ public:
     Variant(cl::PoolVector3Array v) : value_(std::move(v)) {}
     Variant(cl::PoolColorArray v) : value_(std::move(v)) {}
 
-    [[nodiscard]] Type type() const noexcept { return static_cast<Type>(value_.index()); }
-    [[nodiscard]] bool is_nil() const noexcept { return type() == Type::Nil; }
-    [[nodiscard]] bool is_num() const noexcept { return type() == Type::Int || type() == Type::Real; }
+    [[nodiscard]] Type type() const noexcept {
+        return static_cast<Type>(value_.index());
+    }
+    [[nodiscard]] bool is_nil() const noexcept {
+        return type() == Type::Nil;
+    }
+    [[nodiscard]] bool is_num() const noexcept {
+        return type() == Type::Int || type() == Type::Real;
+    }
 
-    /// The stored value if it is exactly a T, else nullptr. T: bool, int64_t, double, std::string, glm::vec2, ...,
-    /// cl::Dictionary, cl::Array, cl::PoolByteArray, ...; for objects see to_object().
+    /// The stored value if it is exactly a T, else nullptr. T: bool, int64_t, double, std::string, glm::vec2,
+    /// ..., cl::Dictionary, cl::Array, cl::PoolByteArray, ...; for objects see to_object().
     template <typename T>
     [[nodiscard]] const T* get_if() const noexcept {
         if constexpr (std::is_same_v<T, cl::Dictionary> || std::is_same_v<T, cl::Array>) {
@@ -190,14 +230,15 @@ public:
 private:
     // Order is that of Type: index() is the type number.
     std::variant<std::monostate, bool, int64_t, double, std::string, glm::vec2, cl::Rect2, glm::vec3,
-                 cl::Transform2D, cl::Plane, glm::quat, cl::AABB, glm::mat3, cl::Transform, cl::Color, cl::NodePath,
-                 TextRID, ObjectRef, std::shared_ptr<cl::Dictionary>, std::shared_ptr<cl::Array>,
-                 cl::PoolByteArray, cl::PoolIntArray, cl::PoolRealArray, cl::PoolStringArray, cl::PoolVector2Array,
-                 cl::PoolVector3Array, cl::PoolColorArray>
+                 cl::Transform2D, cl::Plane, glm::quat, cl::AABB, glm::mat3, cl::Transform, cl::Color,
+                 cl::NodePath, TextRID, ObjectRef, std::shared_ptr<cl::Dictionary>,
+                 std::shared_ptr<cl::Array>, cl::PoolByteArray, cl::PoolIntArray, cl::PoolRealArray,
+                 cl::PoolStringArray, cl::PoolVector2Array, cl::PoolVector3Array, cl::PoolColorArray>
         value_;
 };
 
-/// Godot's name of a type as the text format spells it: "Nil", "bool", "int", "float", "String", "Vector2", ...
+/// Godot's name of a type as the text format spells it: "Nil", "bool", "int", "float", "String", "Vector2",
+/// ...
 [[nodiscard]] std::string_view type_name(Variant::Type type) noexcept;
 
 } // namespace cl
