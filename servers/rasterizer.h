@@ -49,6 +49,7 @@ struct DrawItem {
     std::array<int16_t, 2> gi_probes{-1, -1}; ///< into Frame::gi_probes, first and second; -1 = none
     uint16_t omni_count = 0, spot_count = 0;
     std::array<uint16_t, 8> omnis{}, spots{}; ///< into Frame::lights
+    uint16_t directional_mask = 0xFFFFu;    ///< bit i: directional light i of the frame lights this item
     float view_depth_m = 0.0f;              ///< of the instance's origin, for sorting
 };
 
@@ -72,6 +73,8 @@ struct LightItem {
     uint64_t casters_version = 0; ///< equal to last frame's: the shadow map may be kept (omni and spot)
 };
 
+inline constexpr int kMaxDirectionalLights = 16; ///< spec scene-classes section 8
+
 /// All that one picture needs. Pointers and spans live until draw() returns.
 struct Frame {
     glm::ivec2 size{0};
@@ -82,8 +85,8 @@ struct Frame {
     std::span<const DrawItem> opaque;      ///< sorted for early depth rejection and few state changes
     std::span<const DrawItem> transparent; ///< sorted by priority, then back to front
     std::span<const LightItem> lights;     ///< directional ones first
-    int directional_count = 0;
-    AABB casters_bounds;                   ///< world bounds of all shadow casters
+    int directional_count = 0;             ///< at most kMaxDirectionalLights
+    AABB casters_bounds;                   ///< world bounds of what casts directional shadows
     std::span<const GIProbeShading> gi_probes;
     GIMode gi_mode = GIMode::Cones;
     Quality quality = Quality::High;

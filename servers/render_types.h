@@ -124,6 +124,10 @@ struct LightDesc {
     friend bool operator==(const LightDesc&, const LightDesc&) = default;
 };
 
+/// The box an omni or spot light can reach, in light space [m] (spec gi-update section 4); empty if directional.
+/// Departs from Godot for spots of 90 degrees and more, whose box it turns inside out: the whole ball here.
+[[nodiscard]] AABB light_bounds(const LightDesc& light) noexcept;
+
 // --- camera (spec scene-classes section 5) ----------------------------------------------------------------------
 
 enum class Projection : uint8_t { Perspective, Orthogonal, Frustum };

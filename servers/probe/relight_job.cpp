@@ -1,0 +1,66 @@
+#include "servers/probe/relight_job.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace cl {
+namespace {
+
+/// Which mips hold a cell whose energy differs. Mip m holds the cells of level levels - 1 - m (spec section 7).
+std::vector<bool> changed_mips(const gi::CellLayout& layout, const gi::CellEnergies& before,
+                               const gi::CellEnergies& now) {
+    const size_t mips = static_cast<size_t>(gi::mip_count(layout.dims));
+    std::vector<bool> changed(mips, true);
+    if (before.rgb.size() != now.rgb.size()) {
+        return changed;
+    }
+    for (size_t mip = 0; mip < mips; ++mip) {
+        const std::vector<uint32_t>& cells = layout.cells_of_level[static_cast<size_t>(layout.levels) - 1 - mip];
+        changed[mip] = std::any_of(cells.begin(), cells.end(), [&before, &now](uint32_t cell) {
+            const auto at = static_cast<std::ptrdiff_t>(3 * size_t{cell});
+            return !std::equal(now.rgb.begin() + at, now.rgb.begin() + at + 3, before.rgb.begin() + at);
+        });
+    }
+    return changed;
+}
+
+void carry_out(RelightCells& cells, const RelightOrder& order) {
+    const gi::CellLayout& layout = *cells.layout;
+    if (cells.leaf_sums.empty()) {
+        cells.leaf_sums = gi::emission_energies(layout);
+    }
+    for (const LightEdit& edit : order.edits) {
+        if (cells.abandoned) {
+            return;
+        }
+        gi::inject_light(layout, edit.light, edit.sign, cells.leaf_sums);
+    }
+    gi::CellEnergies energies;
+    gi::energies_from_leaves(layout, cells.leaf_sums, order.propagation, energies);
+    cells.mip_changed = cells.encoded_range == order.dynamic_range
+                            ? changed_mips(layout, cells.energies, energies)
+                            : std::vector<bool>(static_cast<size_t>(gi::mip_count(layout.dims)), true);
+    cells.energies = std::move(energies);
+    if (cells.any_mip_changed()) {
+        gi::encode_mips(layout, cells.energies, order.dynamic_range, cells.mips);
+        cells.encoded_range = order.dynamic_range;
+    }
+}
+
+} // namespace
+
+RelightCells::RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout) : layout(std::move(cell_layout)) {}
+
+bool RelightCells::any_mip_changed() const {
+    return std::find(mip_changed.begin(), mip_changed.end(), true) != mip_changed.end();
+}
+
+void relight(RelightCells& cells, const RelightOrder& order) {
+    const auto start = std::chrono::steady_clock::now();
+    carry_out(cells, order);
+    cells.work_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    cells.busy.store(false, std::memory_order_release);
+}
+
+} // namespace cl

@@ -1,0 +1,63 @@
+#include "servers/visual/material_storage.h"
+
+#include "servers/visual/rid_kinds.h"
+
+namespace cl {
+
+MaterialStorage::MaterialStorage(TextureStorage& textures, VersionClock& clock)
+    : textures_(textures), clock_(clock), materials_(static_cast<uint32_t>(RIDKind::Material)) {}
+
+RID MaterialStorage::make(const MaterialDesc& desc) {
+    const RID rid = materials_.make({});
+    set(rid, desc);
+    return rid;
+}
+
+void MaterialStorage::set(RID rid, const MaterialDesc& desc) {
+    Material* material = materials_.get(rid);
+    CL_ASSERT(material, "set() of a material that is not live");
+    count_uses(desc, +1);
+    count_uses(material->desc, -1);
+    material->desc = desc;
+    material->version = clock_.tick();
+    material->resolved_epoch = 0;
+}
+
+bool MaterialStorage::free(RID rid) {
+    if (const Material* material = materials_.get(rid)) {
+        count_uses(material->desc, -1);
+    }
+    return materials_.free(rid);
+}
+
+void MaterialStorage::count_uses(const MaterialDesc& desc, int delta) {
+    for_each_texture(desc, [this, delta](RID texture, TextureColorSpace space) {
+        textures_.count_use(texture, space, delta);
+    });
+}
+
+MaterialStorage::Resolved MaterialStorage::resolved(RID rid, FirstError& errors) {
+    Material* material = materials_.get(rid);
+    if (!material) {
+        return {};
+    }
+    if (material->resolved_epoch != textures_epoch_) {
+        material->resolved = material->desc;
+        for_each_texture(material->resolved, [this, &errors](RID& texture, TextureColorSpace space) {
+            texture = textures_.uploaded(texture, space, errors);
+        });
+        material->resolved_epoch = textures_epoch_;
+    }
+    return {&material->resolved, material->version};
+}
+
+const MaterialDesc& MaterialStorage::default_material() noexcept {
+    static const MaterialDesc kDefault = [] {
+        MaterialDesc desc;
+        desc.is_default = true;
+        return desc;
+    }();
+    return kDefault;
+}
+
+} // namespace cl
