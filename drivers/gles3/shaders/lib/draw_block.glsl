@@ -40,5 +40,6 @@ layout(std140) uniform Draw {
     float draw_vertex_color_srgb;
     float draw_receives_ambient;
     int draw_receives_shadows;
+    int draw_directional_mask; // bit i: directional light i counts
     GIProbe draw_gi[2];
 };

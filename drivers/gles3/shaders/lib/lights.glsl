@@ -1,6 +1,6 @@
 // shaders/lib/lights.glsl -- direct light of all lights of an instance at one point; library, no main()
 // space    view space [m]; colours linear
-// needs    lib/frame_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl; samplers shadow_atlas,
+// needs    lib/frame_block.glsl, lib/draw_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl; samplers shadow_atlas,
 //          directional_shadow
 // variants DIFFUSE_*, SPECULAR_* choose the reflection; none = Burley, GGX
 // source   spec scene-classes sections 8 and 9. Departs: every directional light in one pass, so that emission and
@@ -102,9 +102,10 @@ float directional_shadow_at(DirectionalLight light, vec3 position, int shadow_ta
 void add_directional_lights(Surface s, int shadow_taps, inout LightSum sum) {
     for (int i = 0; i < frame_directional_count; ++i) {
         DirectionalLight light = frame_directional[i];
-        float lit = directional_shadow_at(light, s.position, shadow_taps);
+        bool counts = (draw_directional_mask >> i & 1) == 1;
+        float lit = directional_shadow_at(light, s.position, counts ? shadow_taps : 0);
         vec3 color = light.color * mix(light.shadow_color, vec3(1.0), lit);
-        add_light(s, light.to_light, color, light.specular, sum);
+        add_light(s, light.to_light, counts ? color : vec3(0.0), light.specular, sum);
     }
 }
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "drivers/gles3/directional_splits.h"
+
+#include "servers/rasterizer.h"
+
+#include "drivers/gles3/shaders.h"
+
+#include <span>
+
+namespace cl::gles3 {
+
+/// What a frame turns on for all its draws: part of the choice of shader variant.
+struct FrameFeatures {
+    bool sky = false; ///< ambient light and reflections from a sky
+    bool fog = false;
+    bool directional = false, omni = false, spot = false;
+};
+[[nodiscard]] FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept;
+
+/// A directional light's shadow with its place in the shared map.
+struct PlacedDirectionalShadow {
+    DirectionalShadow shadow; ///< count 0: none
+    MapArea area;
+};
+
+/// Fills the Frame block. @param shadows  one per directional light of the frame
+[[nodiscard]] shaders::FrameBlock make_frame_block(const Frame& frame,
+                                                   std::span<const PlacedDirectionalShadow> shadows) noexcept;
+
+/// A light's colour times energy, with the pi that makes a white Lambert surface facing it send out radiance 1.
+[[nodiscard]] glm::vec3 light_color(const LightDesc& light) noexcept;
+
+/// The background's colour, linear: clear colour or background colour, else black.
+[[nodiscard]] glm::vec3 background_color(const Frame& frame) noexcept;
+
+} // namespace cl::gles3

@@ -1,0 +1,82 @@
+#include "drivers/gles3/light_sets.h"
+
+#include "drivers/gles3/frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace cl::gles3 {
+
+namespace {
+
+constexpr uint16_t kSeparator = 0xFFFFu;
+constexpr size_t kMaxLocalLights = 8;
+
+} // namespace
+
+glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept {
+    CameraDesc camera;
+    camera.fov_deg = 2.0f * light.spot_angle_deg;
+    camera.near_m = kLocalShadowNear;
+    camera.far_m = std::max(light.range_m, 2.0f * kLocalShadowNear);
+    return projection_matrix(camera, glm::ivec2(1));
+}
+
+shaders::LocalLight make_local_light(const LightItem& light, const Transform& world_from_view,
+                                     const std::optional<PlacedLocalShadow>& shadow) noexcept {
+    const LightDesc& desc = *light.desc;
+    const Transform view_from_world = world_from_view.inverse();
+    const Transform view_from_light = view_from_world * light.world_from_light;
+    shaders::LocalLight out;
+    out.position = view_from_light.origin;
+    out.range = desc.range_m;
+    out.color = light_color(desc);
+    out.attenuation = desc.attenuation;
+    out.shadow_color = linear_from_srgb(desc.shadow_color.rgb());
+    out.specular = desc.specular;
+    out.axis = glm::normalize(view_from_light.basis[2]);
+    out.cos_angle = std::cos(glm::radians(desc.spot_angle_deg));
+    out.angle_attenuation = desc.spot_angle_attenuation;
+    out.has_shadow = shadow.has_value();
+    if (!shadow) {
+        return out;
+    }
+    out.shadow_rect = glm::vec4(shadow->rect.position, shadow->rect.size) / static_cast<float>(shadow->atlas_size);
+    const glm::mat4 light_from_view = view_from_light.inverse().to_mat4();
+    if (desc.type == LightType::Omni) {
+        out.shadow_from_view = light_from_view;
+        return out;
+    }
+    glm::mat4 unit_from_clip(0.5f);
+    unit_from_clip[3] = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+    out.shadow_from_view = unit_from_clip * spot_clip_from_light(desc) * light_from_view;
+    return out;
+}
+
+int LightSets::set_of(const DrawItem& item) {
+    const size_t omnis = std::min<size_t>(item.omni_count, kMaxLocalLights);
+    const size_t spots = std::min<size_t>(item.spot_count, kMaxLocalLights);
+    std::vector<uint16_t> key(item.omnis.begin(), item.omnis.begin() + static_cast<std::ptrdiff_t>(omnis));
+    key.push_back(kSeparator);
+    key.insert(key.end(), item.spots.begin(), item.spots.begin() + static_cast<std::ptrdiff_t>(spots));
+    const auto [found, is_new] = known_.try_emplace(std::move(key), static_cast<int>(blocks_.size()));
+    if (is_new) {
+        shaders::LightSetBlock block;
+        block.set_omni_count = static_cast<int>(omnis);
+        block.set_spot_count = static_cast<int>(spots);
+        for (size_t i = 0; i < omnis; ++i) {
+            block.set_omnis[i] = lights_[item.omnis[i]];
+        }
+        for (size_t i = 0; i < spots; ++i) {
+            block.set_spots[i] = lights_[item.spots[i]];
+        }
+        blocks_.push_back(block);
+    }
+    return found->second;
+}
+
+} // namespace cl::gles3

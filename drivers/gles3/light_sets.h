@@ -1,0 +1,49 @@
+#pragma once
+
+#include "servers/rasterizer.h"
+
+#include "drivers/gles3/shaders.h"
+
+#include "drivers/gles3/gl/draw_state.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+namespace cl::gles3 {
+
+/// An omni or spot light's place in the shadow atlas.
+struct PlacedLocalShadow {
+    gl::Rect rect;
+    int atlas_size = 1; ///< [texels]
+};
+
+/// View volume of a spot's shadow map: clip from light space (spec scene-classes section 9). 90 degrees and more cast
+/// no shadow.
+[[nodiscard]] glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept;
+inline constexpr float kLocalShadowNear = 0.01f; ///< [m]
+
+/// The light of one omni or spot for shading in view space. @param shadow  nullopt: casts none
+[[nodiscard]] shaders::LocalLight make_local_light(const LightItem& light, const Transform& world_from_view,
+                                                   const std::optional<PlacedLocalShadow>& shadow) noexcept;
+
+/// One copy of the LightSet block for every different choice of lights among the draws.
+class LightSets {
+public:
+    /// @param lights  made by make_local_light, by the frame's light index; those of directional lights are unused
+    explicit LightSets(std::span<const shaders::LocalLight> lights) : lights_(lights) {}
+
+    /// Index of the set with the item's lights.
+    int set_of(const DrawItem& item);
+    [[nodiscard]] const std::vector<shaders::LightSetBlock>& blocks() const noexcept { return blocks_; }
+
+private:
+    std::span<const shaders::LocalLight> lights_;
+    std::map<std::vector<uint16_t>, int> known_; ///< omnis, then 0xFFFF, then spots
+    std::vector<shaders::LightSetBlock> blocks_;
+};
+
+} // namespace cl::gles3
