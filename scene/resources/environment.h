@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include <glm/mat3x3.hpp>
 
@@ -66,6 +67,9 @@ public:
     void set_effects(const EnvironmentEffects& effects);
     [[nodiscard]] const Ref<Sky>& sky() const noexcept { return sky_.get(); }
     void set_sky(Ref<Sky> sky);
+    /// One-dimensional look-up texture of the adjustments; stored only.
+    [[nodiscard]] const Ref<Texture>& color_correction() const noexcept { return color_correction_; }
+    void set_color_correction(Ref<Texture> texture) { color_correction_ = std::move(texture); }
 
     /// The environment as the server takes it: desc() with the sky's RID in `server`.
     [[nodiscard]] EnvironmentDesc describe(VisualServer& server) const;
@@ -78,7 +82,7 @@ private:
     EnvironmentDesc desc_;
     EnvironmentEffects effects_;
     WatchedRef<Sky> sky_;
-    Ref<Texture> color_correction_; ///< stored only
+    Ref<Texture> color_correction_;
     mutable ServerRID rid_;
 };
 

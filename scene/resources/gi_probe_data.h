@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/resources/explains_refusal.h"
 #include "scene/resources/server_rid.h"
 
 #include "servers/gi/probe_data.h"
@@ -7,10 +8,12 @@
 #include "core/object/resource.h"
 #include "core/variant/variant.h"
 
+#include <string>
+
 namespace cl::scene {
 
 /// What a GI bake made, and how it is shown (spec gi-probe-data section 2).
-class GIProbeData final : public Resource {
+class GIProbeData final : public Resource, public ExplainsRefusal {
 public:
     static constexpr std::string_view kClassName = "GIProbeData";
     static void bind(ClassBuilder<GIProbeData>& c);
@@ -18,6 +21,10 @@ public:
     [[nodiscard]] const gi::ProbeData& data() const noexcept { return data_; }
     /// Replaces everything; probes that show it start over.
     void set_data(gi::ProbeData data);
+
+    /// Replaces the cells after checking them: Refused, with refusal() saying why, if they are not valid.
+    SetResult set_dynamic_data(const PoolIntArray& cells);
+    [[nodiscard]] const std::string& refusal() const noexcept override { return refusal_; }
 
     // Read live by the renderer, without starting over.
     void set_energy(float energy);
@@ -37,6 +44,7 @@ private:
     void data_changed();
 
     gi::ProbeData data_;
+    std::string refusal_;
     mutable ServerRID rid_;
 };
 

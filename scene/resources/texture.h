@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/resources/explains_refusal.h"
 #include "scene/resources/server_rid.h"
 
 #include "servers/rasterizer.h"
@@ -46,7 +47,7 @@ private:
 };
 
 /// The resource class "Image": pixels inside a scene file, as {width, height, format, mipmaps, data}.
-class ImageResource final : public Resource {
+class ImageResource final : public Resource, public ExplainsRefusal {
 public:
     static constexpr std::string_view kClassName = "Image";
     static void bind(ClassBuilder<ImageResource>& c);
@@ -57,12 +58,14 @@ public:
     /// As stored: kept as it was read, so that saving writes the same.
     [[nodiscard]] Dictionary data() const;
     SetResult set_data(const Dictionary& data);
-    /// Why the last set_data() was refused or gave no image; empty if it did.
+    [[nodiscard]] const std::string& refusal() const noexcept override { return refusal_; }
+    /// Why there is data but no image: a format that we do not read. Empty otherwise.
     [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
 
 private:
     std::shared_ptr<const Image> image_;
     Dictionary data_;
+    std::string refusal_;
     std::string problem_;
 };
 
