@@ -27,7 +27,7 @@ struct ProbeData {
     bool compress = false;
 };
 
-/// Leaf cells along the longest axis: 64, 128, 256 or 512.
+/// The cells that a probe of some extents has. N = 64, 128, 256 or 512 leaf cells along the longest axis.
 struct Grid {
     glm::ivec3 dims{0};        ///< [cells], powers of two
     int levels = 0;            ///< 7 to 10; N = 2^(levels - 1)
@@ -37,8 +37,8 @@ struct Grid {
     Transform cells_from_local;
 };
 /// Section 3 of gi-probe-data. @param subdivision 64, 128, 256 or 512.
-/// @return InvalidArgument where Godot would hang or make a zero-sized grid: an extent that is not positive and
-///         finite, or an axis thinner than half a cell.
+/// @return InvalidArgument where Godot would hang or make a zero-sized grid: an extent that is not in 1e-6 to 1e9 m
+///         (beyond, float32 loses the cells), or an axis thinner than half a cell.
 [[nodiscard]] Expected<Grid> compute_grid(const glm::vec3& extents_m, int subdivision);
 
 inline constexpr uint32_t kNoChild = 0xFFFFFFFFu;
@@ -58,10 +58,11 @@ struct Octree {
     uint32_t leaf_count = 0;
     std::vector<Cell> cells; ///< cell 0 is the root
 };
-/// Reads and validates a blob: version, sizes, counts, child indices, levels (section 5.4). Never trusts a number.
-/// @return ParseError naming the first int that is wrong.
+/// Reads and validates a blob: version, sizes, counts, child indices, levels (section 5.4). Never trusts a number:
+/// it allocates in proportion to the ints given, and what it returns is a tree whose cells all lie inside dims.
+/// @return ParseError "dynamic_data: expected ..., found ..." for the first int or cell that is wrong.
 [[nodiscard]] Expected<Octree> decode_octree(std::span<const int32_t> dynamic_data);
-/// Writes a blob; padding ints are 0.
+/// Writes a blob; padding ints are 0, where Godot leaves whatever memory held (section 5.1).
 [[nodiscard]] std::vector<int32_t> encode_octree(const Octree& octree);
 
 } // namespace cl::gi

@@ -36,7 +36,7 @@ struct CaptureInput {
 /// Godot's cubic resize of RGBA8 (spec gi-bake section 3), byte for byte.
 [[nodiscard]] Image resize_cubic_rgba8(const Image& image, glm::ivec2 size);
 
-/// Triangles to plot: one surface of one instance. Spans live until bake() returns.
+/// Triangles to plot: one surface of one instance. Spans live until voxelize() returns.
 struct PlotSurface {
     Transform local_from_mesh;                ///< probe-local [m] from mesh
     std::span<const glm::vec3> positions;
@@ -46,15 +46,25 @@ struct PlotSurface {
     const MaterialCapture* material = nullptr;///< never null
 };
 
-/// Called between plot steps with the share done in [0, 1]; returning false cancels.
+/// Called with the share of the plot that is done, in [0, 1], never less than before; returning false cancels.
+/// One call at a time, but perhaps on a worker thread.
 using BakeProgress = std::function<bool(float)>;
 
-/// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6
-/// (what Godot 3.2.3 bakes, cell for cell).
-/// @return Cancelled if `progress` said so; OutOfMemory beyond kMaxCells.
+/// Most cells of a bake: 3.5 GiB of them.
+inline constexpr uint32_t kMaxCells = 1u << 26;
+
+struct BakeLimits {
+    uint32_t max_cells = kMaxCells; ///< kMaxCells at most
+};
+
+/// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6. Godot 3.2.3 bakes
+/// the same cells; their order in the array is depth first here, where Godot's is the order of creation. The result
+/// is the same for any number of threads.
+/// @return InvalidArgument if a surface's arrays do not fit together or its material is missing; Cancelled if
+///         `progress` said so; OutOfMemory beyond `limits`.
+/// Departs: triangles with coordinates that are not finite or beyond 1e12 m are left out.
 [[nodiscard]] Expected<Octree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces,
-                                        const BakeProgress& progress = {});
-inline constexpr uint32_t kMaxCells = 1u << 28;
+                                        const BakeProgress& progress = {}, const BakeLimits& limits = {});
 
 /// Separating-axis test of gi-bake section 4.1; touching counts as overlap. float32 throughout.
 [[nodiscard]] bool triangle_overlaps_box(const glm::vec3& center, const glm::vec3& half, const glm::vec3& a,

@@ -1,0 +1,233 @@
+#include "servers/gi/leaf_sampling.h"
+
+#include "servers/gi/triangle_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cl::gi {
+
+namespace {
+
+constexpr int kColumns = 4; ///< samples along each tangent axis
+
+/// x, y, z summed in that order, as the separating-axis test does.
+float dot(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+glm::vec3 normalized_or_zero(const glm::vec3& v) {
+    const float length = std::sqrt(dot(v, v));
+    return length > 0.0f ? v / length : glm::vec3(0.0f);
+}
+
+struct Sample {
+    glm::vec3 albedo{0.0f};
+    glm::vec3 emission{0.0f};
+    glm::vec3 normal{0.0f};
+};
+
+/// Texture coordinates and normal of a point of the triangle.
+struct Attributes {
+    glm::vec2 uv{0.0f};
+    glm::vec3 normal{0.0f};
+};
+
+Attributes attributes_of_vertex(const PlotSurface& s, uint32_t vertex) {
+    return {s.uvs.empty() ? glm::vec2(0.0f) : s.uvs[vertex], s.normals.empty() ? glm::vec3(0.0f) : s.normals[vertex]};
+}
+
+/// Step 5 of section 5.
+Attributes attributes_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q) {
+    constexpr float kSameVertex_m2 = 1e-10f;
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec3 to_vertex = t.v[k] - q;
+        if (dot(to_vertex, to_vertex) < kSameVertex_m2) {
+            return attributes_of_vertex(s, t.vertex[k]);
+        }
+    }
+    const glm::vec3 e0 = t.v[1] - t.v[0];
+    const glm::vec3 e1 = t.v[2] - t.v[0];
+    const glm::vec3 e2 = q - t.v[0];
+    const float d00 = dot(e0, e0);
+    const float d01 = dot(e0, e1);
+    const float d11 = dot(e1, e1);
+    const float d20 = dot(e2, e0);
+    const float d21 = dot(e2, e1);
+    const float determinant = d00 * d11 - d01 * d01;
+    const Attributes a = attributes_of_vertex(s, t.vertex[0]);
+    if (determinant == 0.0f) {
+        return a;
+    }
+    const Attributes b = attributes_of_vertex(s, t.vertex[1]);
+    const Attributes c = attributes_of_vertex(s, t.vertex[2]);
+    const float v = (d11 * d20 - d01 * d21) / determinant;
+    const float w = (d00 * d21 - d01 * d20) / determinant;
+    const float u = 1.0f - v - w;
+    return {a.uv * u + b.uv * v + c.uv * w, normalized_or_zero(a.normal * u + b.normal * v + c.normal * w)};
+}
+
+/// Texel along one axis: repeat wrap, no filter (step 6). NaN and infinity, which half UVs can hold, give 0.
+size_t texel_along(float u) {
+    float fraction = std::fmod(u, 1.0f);
+    if (fraction < 0.0f) {
+        fraction += 1.0f;
+    }
+    return fraction > 0.0f ? size_t(std::min(int(fraction * float(kCaptureSize)), kCaptureSize - 1)) : 0;
+}
+
+const glm::vec3& texel_of(const std::vector<glm::vec3>& map, const glm::vec2& uv) {
+    return map.size() == 1 ? map[0] : map[texel_along(uv.y) * size_t(kCaptureSize) + texel_along(uv.x)];
+}
+
+Sample sample_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q) {
+    const Attributes at = attributes_at(t, s, q);
+    return {texel_of(s.material->albedo, at.uv), texel_of(s.material->emission, at.uv), at.normal};
+}
+
+/// Bit (4 i + j) is set where the triangle touches the column at steps i along u and j along w.
+uint32_t touched_columns(const LeafBox& leaf, const PlotTriangle& t) {
+    const int axis = t.axis;
+    const int u = (axis + 1) % 3;
+    const int w = (axis + 2) % 3;
+    const float step = leaf.size_m / float(kColumns);
+    const auto place = [](Boxes<float4>& boxes, int a, float4 from, float size) {
+        const float4 to = from + size;
+        boxes.half[a] = (to - from) * 0.5f;
+        boxes.center[a] = from + boxes.half[a];
+    };
+    Boxes<float4> boxes;
+    place(boxes, axis, splat(leaf.position[axis]), leaf.size_m);
+    place(boxes, w, leaf.position[w] + float4{0.0f, 1.0f, 2.0f, 3.0f} * step, step);
+    uint32_t columns = 0;
+    for (int i = 0; i < kColumns; ++i) {
+        place(boxes, u, splat(leaf.position[u] + float(i) * step), step);
+        columns |= overlapping_boxes(boxes, t.v) << (kColumns * i);
+    }
+    return columns;
+}
+
+/// Where the column's axis meets the triangle, or comes nearest to it (steps 2 to 4).
+glm::vec3 point_in_column(const LeafBox& leaf, const PlotTriangle& t, int i, int j) {
+    const int axis = t.axis;
+    const int u = (axis + 1) % 3;
+    const int w = (axis + 2) % 3;
+    const float step = leaf.size_m / float(kColumns);
+    glm::vec3 a = leaf.position; // spans one cell below the leaf to its top
+    a[u] = leaf.position[u] + float(i) * step + step * 0.5f;
+    a[w] = leaf.position[w] + float(j) * step + step * 0.5f;
+    a[axis] = leaf.position[axis] - leaf.size_m;
+    glm::vec3 b = a;
+    b[axis] = a[axis] + 2.0f * leaf.size_m;
+    if (dot(t.plane_normal, a - b) < 0.0f) {
+        std::swap(a, b);
+    }
+    constexpr float kEpsilon = 1e-5f;
+    const glm::vec3 along = a - b;
+    const float denominator = dot(t.plane_normal, along);
+    const float distance_a = dot(t.plane_normal, a) - t.plane_d;
+    if (std::abs(denominator) >= kEpsilon) {
+        const float s = distance_a / denominator;
+        if (s >= -kEpsilon && s <= 1.0f + kEpsilon) {
+            return closest_point_of_triangle(t.v, a - s * along);
+        }
+    }
+    const float distance_b = dot(t.plane_normal, b) - t.plane_d;
+    const bool a_is_nearer = std::abs(distance_a) < std::abs(distance_b);
+    const glm::vec3 projected = a_is_nearer ? a - t.plane_normal * distance_a : b - t.plane_normal * distance_b;
+    return closest_point_of_triangle(t.v, projected);
+}
+
+void add(LeafSum& sum, const Sample& sample) {
+    sum.albedo += sample.albedo;
+    sum.emission += sample.emission;
+    sum.normal += sample.normal;
+}
+
+/// Sums the samples of all touched columns. A zero normal falls back to the plane's.
+LeafSum sum_columns(const LeafBox& leaf, const PlotTriangle& t, const PlotSurface& s, uint32_t columns) {
+    LeafSum sum;
+    Sample sample;
+    if (t.is_uniform) {
+        sample = sample_at(t, s, t.v[0]);
+    }
+    for (int bit = 0; bit < kColumns * kColumns; ++bit) {
+        if (((columns >> bit) & 1u) == 0) {
+            continue;
+        }
+        if (!t.is_uniform) {
+            sample = sample_at(t, s, point_in_column(leaf, t, bit / kColumns, bit % kColumns));
+        }
+        if (sample.normal == glm::vec3(0.0f)) {
+            sample.normal = t.plane_normal;
+        }
+        add(sum, sample);
+        sum.alpha += 1.0f;
+    }
+    return sum;
+}
+
+} // namespace
+
+void plot_leaf(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
+               LeafSum& sum) noexcept {
+    constexpr float kSampleWeight = 1.0f / float(kColumns * kColumns);
+    LeafSum own = sum_columns(leaf, triangle, surface, touched_columns(leaf, triangle));
+    if (own.alpha == 0.0f) { // numerically missed by every column: one sample, whose zero normal stays zero
+        const glm::vec3 center = leaf.position + leaf.size_m * 0.5f;
+        add(own, sample_at(triangle, surface, closest_point_of_triangle(triangle.v, center)));
+        own.alpha = 1.0f;
+    }
+    sum.albedo += own.albedo * kSampleWeight;
+    sum.emission += own.emission * kSampleWeight;
+    sum.normal += own.normal * kSampleWeight;
+    sum.alpha += own.alpha * kSampleWeight;
+}
+
+glm::vec3 closest_point_of_triangle(const glm::vec3 (&v)[3], const glm::vec3& p) noexcept {
+    const glm::vec3 e0 = v[1] - v[0];
+    const glm::vec3 e1 = v[2] - v[0];
+    const glm::vec3 to_p = v[0] - p;
+    const float a = dot(e0, e0);
+    const float b = dot(e0, e1);
+    const float c = dot(e1, e1);
+    const float d = dot(e0, to_p);
+    const float e = dot(e1, to_p);
+    const float determinant = a * c - b * b;
+    float s = b * e - c * d;
+    float t = b * d - a * e;
+    const auto along_e0 = [&] { return a > 0.0f ? std::clamp(-d / a, 0.0f, 1.0f) : 0.0f; };
+    const auto along_e1 = [&] { return c > 0.0f ? std::clamp(-e / c, 0.0f, 1.0f) : 0.0f; };
+    const auto along_far_edge = [&](float numerator) {
+        const float length2 = a - 2.0f * b + c;
+        return length2 > 0.0f ? std::clamp(numerator / length2, 0.0f, 1.0f) : 0.0f;
+    };
+    if (s + t <= determinant) {
+        if (s < 0.0f && t < 0.0f && d < 0.0f) { // region 4, nearer to e0
+            s = along_e0();
+            t = 0.0f;
+        } else if (s < 0.0f) { // regions 3 and 4
+            s = 0.0f;
+            t = along_e1();
+        } else if (t < 0.0f) { // region 5
+            s = along_e0();
+            t = 0.0f;
+        } else { // region 0, inside; a degenerate triangle is its first vertex
+            const float inverse = determinant > 0.0f ? 1.0f / determinant : 0.0f;
+            s *= inverse;
+            t *= inverse;
+        }
+    } else if (s < 0.0f) { // region 2
+        const bool on_far_edge = c + e > b + d;
+        s = on_far_edge ? along_far_edge((c + e) - (b + d)) : 0.0f;
+        t = on_far_edge ? 1.0f - s : along_e1();
+    } else if (t < 0.0f) { // region 6
+        const bool on_far_edge = a + d > b + e;
+        t = on_far_edge ? along_far_edge((a + d) - (b + e)) : 0.0f;
+        s = on_far_edge ? 1.0f - t : along_e0();
+    } else { // region 1
+        s = along_far_edge(c + e - b - d);
+        t = 1.0f - s;
+    }
+    return v[0] + s * e0 + t * e1;
+}
+
+} // namespace cl::gi

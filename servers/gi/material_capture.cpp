@@ -1,0 +1,51 @@
+// What a bake sees of a material (spec gi-bake section 3).
+#include "servers/gi/voxelizer.h"
+
+namespace cl::gi {
+
+namespace {
+
+bool has_pixels(const Image& image) { return image.size.x > 0 && image.size.y > 0 && !image.data.empty(); }
+
+/// The texture's kCaptureSize^2 texels, rgb in [0, 1].
+std::vector<glm::vec3> captured_texels(const Image& texture) {
+    constexpr glm::ivec2 kSize{kCaptureSize, kCaptureSize};
+    Image rgba8 = texture.converted_to(PixelFormat::RGBA8);
+    if (rgba8.size != kSize) {
+        rgba8 = resize_cubic_rgba8(rgba8, kSize);
+    }
+    std::vector<glm::vec3> texels(size_t(kCaptureSize) * kCaptureSize);
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const uint8_t* byte = rgba8.data.data() + i * 4;
+        texels[i] = glm::vec3(float(byte[0]) / 255.0f, float(byte[1]) / 255.0f, float(byte[2]) / 255.0f);
+    }
+    return texels;
+}
+
+/// texel * scale + offset; one texel where there is no texture. A texture without pixels counts as black.
+std::vector<glm::vec3> captured_map(const Image* texture, const glm::vec3& scale, const glm::vec3& offset) {
+    if (!texture || !has_pixels(*texture)) {
+        return {offset};
+    }
+    std::vector<glm::vec3> map = captured_texels(*texture);
+    for (glm::vec3& texel : map) {
+        texel = texel * scale + offset;
+    }
+    return map;
+}
+
+} // namespace
+
+MaterialCapture capture_material(const CaptureInput& input) {
+    const glm::vec3 none(0.0f);
+    const glm::vec3 emission = input.emission_color * input.emission_energy;
+    MaterialCapture capture;
+    capture.albedo = input.albedo_texture ? captured_map(input.albedo_texture, input.albedo_color, none)
+                                          : std::vector<glm::vec3>{input.albedo_color};
+    capture.emission = input.emission_multiply
+                           ? captured_map(input.emission_texture, emission, none)
+                           : captured_map(input.emission_texture, glm::vec3(input.emission_energy), emission);
+    return capture;
+}
+
+} // namespace cl::gi
