@@ -11,7 +11,8 @@
 
 namespace cl {
 
-/// Whole file as bytes. Error says why in one line: missing, a directory, not readable, larger than `max_bytes`.
+/// Whole file as bytes. Error says why in one line: missing, a directory, not readable, larger than
+/// `max_bytes`.
 [[nodiscard]] Expected<std::string> read_text_file(const std::filesystem::path& path,
                                                    uint64_t max_bytes = uint64_t{1} << 31);
 [[nodiscard]] Expected<std::vector<uint8_t>> read_binary_file(const std::filesystem::path& path,

@@ -2,9 +2,9 @@
 
 #include "core/object/resource.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace cl {
 
@@ -81,7 +81,8 @@ const Variant& ClassInfo::default_of(const PropertyInfo& property) const {
     if (!fresh_values_) {
         std::unordered_map<StringName, Variant> values;
         std::unique_ptr<Object> fresh = create();
-        Ref<Reference> keep_alive(dynamic_cast<Reference*>(fresh.get())); // a getter may make and drop a Ref to it
+        Ref<Reference> keep_alive(
+            dynamic_cast<Reference*>(fresh.get())); // a getter may make and drop a Ref to it
         if (keep_alive) {
             static_cast<void>(fresh.release());
         }

@@ -32,16 +32,18 @@ struct PropertyInfo {
     /// As bind() gave it; std::nullopt if it gave none. ClassInfo::default_of() is what counts.
     std::optional<Variant> declared_default;
     PropertyHint hint = PropertyHint::None;
-    std::string hint_text; ///< "0,16,0.1" for Range; "Disabled,Indirect,All" for Enum; a class name for ResourceType
-    std::string doc;       ///< one line: meaning and unit
-    bool stored = true;    ///< false: settable (an alias such as rotation_degrees) but never saved
+    std::string
+        hint_text; ///< "0,16,0.1" for Range; "Disabled,Indirect,All" for Enum; a class name for ResourceType
+    std::string doc;            ///< one line: meaning and unit
+    bool stored = true;         ///< false: settable (an alias such as rotation_degrees) but never saved
     bool always_stored = false; ///< saved even when it equals the default
     SaveOrder save_order = SaveOrder::Declared;
     /// Empty: saving is not conditional. Else asked of the object that is saved (a feature is switched on).
     std::function<bool(const Object&)> stored_if;
     std::function<SetResult(Object&, const Variant&)> set;
     std::function<Variant(const Object&)> get;
-    /// The value as the property would hold it (0.98 rounded to float, 1 as 1.0); std::nullopt on a wrong type.
+    /// The value as the property would hold it (0.98 rounded to float, 1 as 1.0); std::nullopt on a wrong
+    /// type.
     std::function<std::optional<Variant>(const Variant&)> convert;
 };
 
@@ -87,9 +89,9 @@ public:
     /// This class and its bases, Object first.
     [[nodiscard]] std::vector<const ClassInfo*> lineage() const;
 
-    /// The value with which an object of this class starts, for an own or inherited property: read from a fresh
-    /// instance, so a class may start an inherited property at a value of its own. For abstract classes the
-    /// declared default, else Nil. The instance is made once, at the first call.
+    /// The value with which an object of this class starts, for an own or inherited property: read from a
+    /// fresh instance, so a class may start an inherited property at a value of its own. For abstract classes
+    /// the declared default, else Nil. The instance is made once, at the first call.
     [[nodiscard]] const Variant& default_of(const PropertyInfo& property) const;
 
 private:
@@ -159,8 +161,8 @@ public:
         info_.create = nullptr;
         return *this;
     }
-    /// This class overrides list_dynamic(): saving puts those properties after its static ones. Without the mark
-    /// they follow the static ones of the most derived class.
+    /// This class overrides list_dynamic(): saving puts those properties after its static ones. Without the
+    /// mark they follow the static ones of the most derived class.
     ClassBuilder& dynamic() {
         info_.lists_dynamic = true;
         return *this;
@@ -203,13 +205,14 @@ public:
 
     /// A method callable by name. Arguments and result convert through VariantCast. `f` may be a base's.
     template <typename C, typename R, typename... Args>
-        requires std::is_base_of_v<C, T>
-    ClassBuilder& method(std::string_view name, R (C::*f)(Args...), std::string doc = {});
+    requires std::is_base_of_v<C, T> ClassBuilder& method(std::string_view name, R (C::*f)(Args...),
+                                                          std::string doc = {});
     template <typename C, typename R, typename... Args>
-        requires std::is_base_of_v<C, T>
-    ClassBuilder& method(std::string_view name, R (C::*f)(Args...) const, std::string doc = {});
+    requires std::is_base_of_v<C, T> ClassBuilder& method(std::string_view name, R (C::*f)(Args...) const,
+                                                          std::string doc = {});
 
-    ClassBuilder& signal(std::string_view name, std::vector<std::string> arguments = {}, std::string doc = {}) {
+    ClassBuilder& signal(std::string_view name, std::vector<std::string> arguments = {},
+                         std::string doc = {}) {
         info_.signals.push_back({StringName(name), std::move(arguments), std::move(doc)});
         return *this;
     }
@@ -227,9 +230,9 @@ class ClassRegistry {
 public:
     [[nodiscard]] static ClassRegistry& instance();
 
-    /// Registers T (base before derived; twice is a no-op). T has a `kClassName` of its own and may have a public
-    /// `static void bind(ClassBuilder<T>&)`. `Base` is its registered base class. A T that is abstract or has no
-    /// default constructor gives no `create`.
+    /// Registers T (base before derived; twice is a no-op). T has a `kClassName` of its own and may have a
+    /// public `static void bind(ClassBuilder<T>&)`. `Base` is its registered base class. A T that is abstract
+    /// or has no default constructor gives no `create`.
     template <typename T, typename Base = void>
     const ClassInfo& add();
 

@@ -18,7 +18,8 @@ namespace detail {
 [[nodiscard]] Error wrong_argument_type(size_t index, Variant::Type expected, Variant::Type found);
 
 template <typename T, typename F, typename R, typename... Args, size_t... I>
-Expected<Variant> invoke_converted(F f, Object& object, std::span<const Variant> given, std::index_sequence<I...>) {
+Expected<Variant> invoke_converted(F f, Object& object, std::span<const Variant> given,
+                                   std::index_sequence<I...>) {
     if (given.size() != sizeof...(Args)) {
         return wrong_argument_count(sizeof...(Args), given.size());
     }
@@ -59,16 +60,16 @@ MethodInfo make_method(std::string_view name, F f, std::string doc) {
 
 template <typename T>
 template <typename C, typename R, typename... Args>
-    requires std::is_base_of_v<C, T>
-ClassBuilder<T>& ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...), std::string doc) {
+requires std::is_base_of_v<C, T> ClassBuilder<T>
+&ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...), std::string doc) {
     info_.methods.push_back(detail::make_method<T, R, Args...>(name, f, std::move(doc)));
     return *this;
 }
 
 template <typename T>
 template <typename C, typename R, typename... Args>
-    requires std::is_base_of_v<C, T>
-ClassBuilder<T>& ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...) const, std::string doc) {
+requires std::is_base_of_v<C, T> ClassBuilder<T>
+&ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...) const, std::string doc) {
     info_.methods.push_back(detail::make_method<T, R, Args...>(name, f, std::move(doc)));
     return *this;
 }
@@ -94,7 +95,7 @@ const ClassInfo& ClassRegistry::add() {
     if constexpr (std::is_default_constructible_v<T>) { // false for classes with pure virtual functions
         info.create = []() -> std::unique_ptr<Object> { return std::make_unique<T>(); };
     }
-    if constexpr (requires(ClassBuilder<T>& builder) { T::bind(builder); }) {
+    if constexpr (requires(ClassBuilder<T> & builder) { T::bind(builder); }) {
         ClassBuilder<T> builder(info);
         T::bind(builder);
     }

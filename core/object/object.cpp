@@ -2,9 +2,9 @@
 
 #include "core/object/class_registry.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace cl {
 
@@ -71,7 +71,8 @@ const Object::PropertyValue* Object::find_extra(const StringName& property) cons
 Expected<Variant> Object::call(const StringName& method, std::span<const Variant> arguments) {
     const MethodInfo* info = class_info().find_method(method);
     if (!info) {
-        return Error{ErrorCode::NotFound, fmt::format("{} has no method \"{}\"", class_name().view(), method.view())};
+        return Error{ErrorCode::NotFound,
+                     fmt::format("{} has no method \"{}\"", class_name().view(), method.view())};
     }
     Expected<Variant> result = info->call(*this, arguments);
     if (!result) {
@@ -88,9 +89,13 @@ std::weak_ptr<Object*> Object::handle() const {
     return handle_;
 }
 
-SetResult Object::set_dynamic(const StringName&, const Variant&) { return SetResult::UnknownProperty; }
+SetResult Object::set_dynamic(const StringName&, const Variant&) {
+    return SetResult::UnknownProperty;
+}
 
-bool Object::get_dynamic(const StringName&, Variant&) const { return false; }
+bool Object::get_dynamic(const StringName&, Variant&) const {
+    return false;
+}
 
 void Object::list_dynamic(std::vector<PropertyValue>&) const {}
 

@@ -68,12 +68,13 @@ public:
 
     using Slot = std::function<void(std::span<const Variant>)>;
     /// Connects a callable; returns an id for disconnect(). InvalidArgument if the class has no such signal.
-    /// OneShot is honoured here. Deferred, Persist and ReferenceCounted are kept for their owner: an Object has no
-    /// queue, so the scene layer connects a slot that queues its call.
+    /// OneShot is honoured here. Deferred, Persist and ReferenceCounted are kept for their owner: an Object
+    /// has no queue, so the scene layer connects a slot that queues its call.
     Expected<uint64_t> connect(const StringName& signal, Slot slot, ConnectFlags flags = ConnectFlags::None);
     void disconnect(const StringName& signal, uint64_t id);
-    /// Calls the slots in order of connection. Slots may connect, disconnect, emit and delete this object while it
-    /// runs: one that is disconnected in time is not called, one that is connected is called from the next time.
+    /// Calls the slots in order of connection. Slots may connect, disconnect, emit and delete this object
+    /// while it runs: one that is disconnected in time is not called, one that is connected is called from
+    /// the next time.
     void emit_signal(const StringName& signal, std::span<const Variant> arguments = {});
 
     /// Weak identity: expires with the object.

@@ -3,9 +3,9 @@
 #include "core/object/class_registry.h"
 #include "core/object/object.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
+
+#include <algorithm>
 
 namespace cl {
 
@@ -29,9 +29,8 @@ Expected<uint64_t> Object::connect(const StringName& signal, Slot slot, ConnectF
 }
 
 void Object::disconnect(const StringName& signal, uint64_t id) {
-    const auto found =
-        std::find_if(connections_.begin(), connections_.end(),
-                     [&](const Connection& c) { return c.id == id && c.signal == signal; });
+    const auto found = std::find_if(connections_.begin(), connections_.end(),
+                                    [&](const Connection& c) { return c.id == id && c.signal == signal; });
     if (found != connections_.end()) {
         connections_.erase(found);
     }
@@ -58,7 +57,8 @@ void Object::emit_signal(const StringName& signal, std::span<const Variant> argu
         }
         const Slot slot = found->slot;
         if (has_flag(found->flags, ConnectFlags::OneShot)) {
-            connections_.erase(found); // before the call, so that emitting from the slot does not call it again
+            connections_.erase(
+                found); // before the call, so that emitting from the slot does not call it again
         }
         slot(arguments);
         if (self.expired()) {

@@ -38,7 +38,9 @@ public:
         }
     }
 
-    void add_all(const std::vector<PropertyValue>& values) { out_.insert(out_.end(), values.begin(), values.end()); }
+    void add_all(const std::vector<PropertyValue>& values) {
+        out_.insert(out_.end(), values.begin(), values.end());
+    }
 
     std::vector<PropertyValue> take() { return std::move(out_); }
 

@@ -25,8 +25,12 @@ uint64_t Resource::on_changed(std::function<void()> f) {
     return *id;
 }
 
-void Resource::remove_on_changed(uint64_t id) { disconnect(kChanged, id); }
+void Resource::remove_on_changed(uint64_t id) {
+    disconnect(kChanged, id);
+}
 
-void Resource::emit_changed() { emit_signal(kChanged); }
+void Resource::emit_changed() {
+    emit_signal(kChanged);
+}
 
 } // namespace cl

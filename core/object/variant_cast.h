@@ -18,7 +18,8 @@ namespace cl {
 /// How a C++ type of a property or argument appears as a Variant:
 ///   kType                the Variant type it is saved as; Nil = any
 ///   to_variant(value)    never fails
-///   from_variant(value)  converts as an assignment in a scene file does (Variant::converted_to); std::nullopt
+///   from_variant(value)  converts as an assignment in a scene file does (Variant::converted_to);
+///   std::nullopt
 ///                        where the value does not convert
 /// Specialised below for every type that the registry accepts; another type fails to compile.
 template <typename T>
@@ -116,7 +117,7 @@ struct VariantCast<StringName> {
 /// Enums are saved as int. A number that is no enumerator is passed on, for the setter to refuse; one that
 /// does not even fit the underlying type is clamped to it, so that it cannot wrap to a valid enumerator.
 template <typename T>
-    requires std::is_enum_v<T>
+requires std::is_enum_v<T>
 struct VariantCast<T> {
     using Number = std::underlying_type_t<T>;
     static constexpr Variant::Type kType = Variant::Type::Int;

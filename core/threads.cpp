@@ -1,0 +1,107 @@
+#include "core/threads.h"
+
+#include "core/assert.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace cl {
+
+namespace {
+
+using tbb::global_control;
+
+std::unique_ptr<global_control>& thread_limit() {
+    static std::unique_ptr<global_control> limit;
+    return limit;
+}
+
+} // namespace
+
+void set_thread_count(int count) {
+    CL_ASSERT(count >= 0, "a negative number of threads");
+    thread_limit().reset(); // two limits at once would give the smaller one
+    if (count > 0) {
+        thread_limit() = std::make_unique<global_control>(global_control::max_allowed_parallelism,
+                                                          static_cast<size_t>(count));
+    }
+}
+
+int thread_count() {
+    return static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+}
+
+void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
+    if (count == 0) {
+        return;
+    }
+    const tbb::blocked_range<size_t> all(0, count, std::max<size_t>(grain, 1));
+    tbb::parallel_for(all,
+                      [&body](const tbb::blocked_range<size_t>& part) { body(part.begin(), part.end()); });
+}
+
+/// One plain thread: a task scheduler would be free to run jobs side by side or not at all.
+struct WorkerQueue::Impl {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<std::function<void()>> jobs; // the front one is running
+    bool stopping = false;
+    std::thread thread;
+
+    void run() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            changed.wait(lock, [this] { return stopping || !jobs.empty(); });
+            if (jobs.empty()) {
+                return;
+            }
+            std::function<void()> job = std::move(jobs.front()); // its empty place stays until it is done
+            lock.unlock();
+            job();
+            job = nullptr; // what it holds may push when it goes
+            lock.lock();
+            jobs.pop_front();
+            changed.notify_all();
+        }
+    }
+};
+
+WorkerQueue::WorkerQueue() : impl_(std::make_unique<Impl>()) {}
+
+WorkerQueue::~WorkerQueue() {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->stopping = true;
+    }
+    impl_->changed.notify_all();
+    if (impl_->thread.joinable()) {
+        impl_->thread.join();
+    }
+}
+
+void WorkerQueue::push(std::function<void()> job) {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->jobs.push_back(std::move(job));
+        if (!impl_->thread.joinable()) { // no thread for a queue that is never used
+            impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+        }
+    }
+    impl_->changed.notify_all();
+}
+
+void WorkerQueue::wait() {
+    std::unique_lock lock(impl_->mutex);
+    CL_ASSERT(std::this_thread::get_id() != impl_->thread.get_id(), "a job waits for its own queue");
+    impl_->changed.wait(lock, [this] { return impl_->jobs.empty(); });
+}
+
+} // namespace cl
