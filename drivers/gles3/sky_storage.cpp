@@ -22,11 +22,17 @@ constexpr int kMinRadianceWidth = 8;
 void append_halves(std::span<const glm::vec3> texels, std::vector<uint64_t>& out) {
     constexpr float kMaxHalf = 65504.0f;
     for (const glm::vec3& t : texels) {
-        // Not a number becomes 0: one bad texel must not spread over the picture.
-        const glm::vec3 finite(std::isfinite(t.x) ? t.x : 0.0f, std::isfinite(t.y) ? t.y : 0.0f,
-                               std::isfinite(t.z) ? t.z : 0.0f);
-        out.push_back(glm::packHalf4x16(glm::vec4(glm::clamp(finite, -kMaxHalf, kMaxHalf), 1.0f)));
+        out.push_back(glm::packHalf4x16(glm::vec4(glm::clamp(t, -kMaxHalf, kMaxHalf), 1.0f)));
     }
+}
+
+/// What is not a finite number becomes 0: one bad texel must not spread over the picture.
+std::vector<glm::vec3> finite_texels(std::span<const float> rgb) {
+    std::vector<glm::vec3> out(rgb.size() / 3);
+    for (size_t i = 0; i < rgb.size(); ++i) {
+        out[i / 3][static_cast<glm::length_t>(i % 3)] = std::isfinite(rgb[i]) ? rgb[i] : 0.0f;
+    }
+    return out;
 }
 
 Expected<gl::Texture2D> upload_2d(const gl::Texture2DDesc& desc, std::span<const glm::vec3> texels) {
@@ -119,14 +125,10 @@ Expected<RID> SkyStorage::create(const SkyDesc& desc) {
                      "sky: expected 3 numbers a texel of " + std::to_string(desc.size.x) + "x" +
                          std::to_string(desc.size.y) + ", found " + std::to_string(desc.radiance.size())};
     }
-    const Panorama panorama(desc.size, desc.radiance);
+    const Panorama panorama(desc.size, finite_texels(desc.radiance));
     const int width = std::clamp(desc.radiance_map_size, kMinRadianceWidth, kMaxRadianceWidth);
-    std::vector<glm::vec3> texels(desc.radiance.size() / 3);
-    for (size_t i = 0; i < texels.size(); ++i) {
-        texels[i] = {desc.radiance[3 * i], desc.radiance[3 * i + 1], desc.radiance[3 * i + 2]};
-    }
     Expected<StoredSky> sky =
-        store(desc.size, texels, filter_irradiance(panorama), filter_radiance(panorama, width));
+        store(desc.size, panorama.texels(), filter_irradiance(panorama), filter_radiance(panorama, width));
     if (!sky) {
         return sky.error();
     }
