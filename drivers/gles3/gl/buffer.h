@@ -36,9 +36,10 @@ public:
     /// Replaces bytes from `offset`. @return InvalidArgument beyond the end.
     Status update(size_t offset, std::span<const std::byte> bytes);
     /// Gives the old contents up and replaces all: cheaper than update() while draws may still read the old.
-    Status replace(std::span<const std::byte> bytes);
+    void replace(std::span<const std::byte> bytes);
 
 private:
+    static Expected<Buffer> create_raw(const BufferDesc& desc, size_t size, const void* bytes);
     Buffer(GLuint id, BufferKind kind, BufferUsage usage, size_t size)
         : id_(id), kind_(kind), usage_(usage), size_(size) {}
     GLuint id_ = 0;

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 namespace cl::gles3::gl {
 
 /// What the current context offers beyond, or instead of, GLES 3.0's minimum. Asked once, when a State is
 /// made.
 struct Capabilities {
+    bool browser = false;            ///< WebGL 2: differs from ES in details
     bool desktop = false;            ///< OpenGL core profile, not ES: see workarounds.h
     bool color_buffer_float = false; ///< RGBA16F, R11F_G11F_B10F, RGBA32F can be rendered to
     bool float_linear = false;       ///< 32-bit float textures can be filtered

@@ -55,8 +55,8 @@ public:
 
 private:
     Framebuffer() = default;
-    GLuint id_ = 0;
-    bool owned_ = false;
+    void read(const Rect& rect, int index, GLenum type, void* pixels) const;
+    GLuint id_ = 0; ///< 0: moved from, or the window's: nothing to delete
     glm::ivec2 size_{0};
     int color_count_ = 0;
     bool has_depth_ = false;

@@ -77,6 +77,7 @@ private:
         friend bool operator==(const UniformRange&, const UniformRange&) = default;
     };
     void activate_unit(int unit);
+    void forget_texture(GLuint name);
 
     Capabilities capabilities_;
     std::array<int, kObjectKinds> live_{};

@@ -47,9 +47,9 @@ struct VertexArrayDesc {
 /// Which buffers feed which attributes. An attribute that is absent reads white (Color) or (0, 0, 0, 1).
 class VertexArray {
 public:
-    [[nodiscard]] static Expected<VertexArray> create(const VertexArrayDesc& desc);
+    [[nodiscard]] static VertexArray create(const VertexArrayDesc& desc);
     /// No attributes: for programs that make their vertices of gl_VertexID (lib/fullscreen.glsl).
-    [[nodiscard]] static Expected<VertexArray> create_empty();
+    [[nodiscard]] static VertexArray create_empty();
     VertexArray(VertexArray&& other) noexcept;
     VertexArray& operator=(VertexArray&& other) noexcept;
     ~VertexArray();
