@@ -85,6 +85,11 @@ struct MaterialDesc {
         return blend_mode != BlendMode::Mix || no_depth_test ||
                (transparent && !alpha_scissor && depth_draw_mode != DepthDrawMode::AlphaOpaquePrepass);
     }
+    /// Shows in shadow maps (spec section 9, last lines).
+    [[nodiscard]] bool casts_shadow() const noexcept {
+        return alpha_scissor || depth_draw_mode == DepthDrawMode::AlphaOpaquePrepass ||
+               (blend_mode == BlendMode::Mix && !no_depth_test && !transparent);
+    }
 };
 
 // --- lights (spec scene-classes sections 6 to 9) ----------------------------------------------------------------

@@ -29,11 +29,12 @@ struct RenderSettings {
 
 /// Figures of the last draw() and of the probes, for --stats.
 struct ServerStats {
-    FrameStats frame;
-    double relight_ms = 0.0; ///< last light change to volume ready to draw, summed over probes that changed
-    double upload_ms = 0.0;
-    int lights = 0;
-    int instances = 0;
+    FrameStats frame;        ///< summed over the viewports
+    double relight_ms = 0.0; ///< last change of light to volume ready to draw, without the wait for the next step:
+                             ///< work on the cells and upload, summed over the probes that changed
+    double upload_ms = 0.0;  ///< the upload's part of it
+    int lights = 0;          ///< visible ones that stand in a scenario
+    int instances = 0;       ///< of meshes that stand in a scenario
 };
 
 /// The only door from scene to renderer. RIDs are plain handles; a stale or foreign one is logged once, answered
@@ -46,8 +47,11 @@ public:
     VisualServer& operator=(const VisualServer&) = delete;
 
     // --- data -------------------------------------------------------------------------------------------------
-    /// Copies the image; it is uploaded for each colour space it is used in, when first drawn.
+    /// Keeps the image until it was drawn in each colour space that materials use it in (albedo and emission are
+    /// colours, all else numbers), then lets go of it. Null RID, and a line in the log, if pixels are missing.
     RID texture_create(Image image, const TextureParams& params = {});
+    /// The same without a copy: the image is shared with the caller, who must not change it.
+    RID texture_create(std::shared_ptr<const Image> image, const TextureParams& params = {});
     /// Pixel size of a texture; InvalidArgument if stale.
     Expected<glm::ivec2> texture_size(RID texture) const;
 
@@ -71,7 +75,9 @@ public:
     // --- GI probes --------------------------------------------------------------------------------------------
     RID gi_probe_create();
     /// Replaces all data: the probe starts over (spec gi-probe-data section 1: assignment recreates the state).
-    /// @return ParseError if the blob is not valid; the probe is then empty.
+    /// With an empty blob it pairs by its bounds and is drawn as the null probe (spec gi-shading section 2); a probe
+    /// that was never given data has no effect.
+    /// @return ParseError if the blob or a number is not valid; the probe then has no data.
     Status gi_probe_set_data(RID probe, const gi::ProbeData& data);
     /// Live parameters: read each draw, or polled (propagation). No set-up is needed.
     Status gi_probe_set_energy(RID probe, float energy);
@@ -87,8 +93,10 @@ public:
 
     /// An instance of a mesh, light or GI probe in a scenario. `base` null: nothing is drawn.
     RID instance_create(RID base, RID scenario);
+    /// Another base drops the surface materials.
     Status instance_set_base(RID instance, RID base);
     Status instance_set_scenario(RID instance, RID scenario); ///< null RID: nowhere
+    /// Lights and GI probes stand with the orthonormalised transform.
     Status instance_set_transform(RID instance, const Transform& world_from_local);
     Status instance_set_visible(RID instance, bool visible);
     Status instance_set_layers(RID instance, uint32_t mask);
@@ -106,7 +114,8 @@ public:
     /// The last frame drawn: Srgb8 (RGBA8) or LinearFloat (RGBF).
     Expected<Image> viewport_read(RID viewport, TargetFormat format);
 
-    /// Frees any RID of this server. Instances of a freed base become empty.
+    /// Frees any RID of this server. Instances of a freed base become empty, those of a freed scenario are nowhere;
+    /// what used a freed texture, material, sky, environment or camera goes on without.
     Status free(RID rid);
 
     // --- frames -----------------------------------------------------------------------------------------------

@@ -41,6 +41,11 @@ public:
     void seen_by(const Frustum& frustum, F&& found) const {
         visit([&frustum](const Bounds& b) { return !b.empty() && may_see(frustum, b.least, b.most); }, found);
     }
+    /// Calls found(RID) for each box there is, in no particular order.
+    template <typename F>
+    void all(F&& found) const {
+        visit([](const Bounds& b) { return !b.empty(); }, found);
+    }
 
 private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -2,6 +2,8 @@
 
 #include "servers/visual/rid_kinds.h"
 
+#include <algorithm>
+
 namespace cl {
 
 MaterialStorage::MaterialStorage(TextureStorage& textures, VersionClock& clock)
@@ -26,6 +28,7 @@ void MaterialStorage::set(RID rid, const MaterialDesc& desc) {
 bool MaterialStorage::free(RID rid) {
     if (const Material* material = materials_.get(rid)) {
         count_uses(material->desc, -1);
+        last_freed_ = clock_.tick();
     }
     return materials_.free(rid);
 }
@@ -36,28 +39,29 @@ void MaterialStorage::count_uses(const MaterialDesc& desc, int delta) {
     });
 }
 
-MaterialStorage::Resolved MaterialStorage::resolved(RID rid, FirstError& errors) {
-    Material* material = materials_.get(rid);
-    if (!material) {
-        return {};
-    }
-    if (material->resolved_epoch != textures_epoch_) {
-        material->resolved = material->desc;
-        for_each_texture(material->resolved, [this, &errors](RID& texture, TextureColorSpace space) {
-            texture = textures_.uploaded(texture, space, errors);
-        });
-        material->resolved_epoch = textures_epoch_;
-    }
-    return {&material->resolved, material->version};
-}
-
-const MaterialDesc& MaterialStorage::default_material() noexcept {
+MaterialStorage::Resolved MaterialStorage::resolve_first(std::span<const RID> choices, FirstError& errors) {
     static const MaterialDesc kDefault = [] {
         MaterialDesc desc;
         desc.is_default = true;
         return desc;
     }();
-    return kDefault;
+    for (RID rid : choices) {
+        if (Material* material = materials_.get(rid)) {
+            return {rid, &resolve(*material, errors), std::max(material->version, last_freed_)};
+        }
+    }
+    return {{}, &kDefault, last_freed_};
+}
+
+const MaterialDesc& MaterialStorage::resolve(Material& material, FirstError& errors) {
+    if (material.resolved_epoch != textures_epoch_) {
+        material.resolved = material.desc;
+        for_each_texture(material.resolved, [this, &errors](RID& texture, TextureColorSpace space) {
+            texture = textures_.uploaded(texture, space, errors);
+        });
+        material.resolved_epoch = textures_epoch_;
+    }
+    return material.resolved;
 }
 
 } // namespace cl

@@ -7,6 +7,7 @@
 #include "servers/visual/version_clock.h"
 
 #include <cstdint>
+#include <span>
 
 namespace cl {
 
@@ -26,13 +27,13 @@ public:
 
     /// A material ready to draw with. Good until the next make() or set().
     struct Resolved {
-        const MaterialDesc* desc = nullptr; ///< null: not a material
-        uint64_t version = 0;
+        RID rid;                            ///< null: the default material
+        const MaterialDesc* desc = nullptr; ///< never null from resolve_first()
+        uint64_t version = 0;               ///< another when another material, or other parameters, may result
     };
-    /// Uploads the textures that are not yet.
-    Resolved resolved(RID material, FirstError& errors);
-    /// What is drawn with where no material is set at all.
-    [[nodiscard]] static const MaterialDesc& default_material() noexcept;
+    /// The first live material of `choices`, or what is drawn where no material is set at all. Uploads its
+    /// textures if they are not yet.
+    Resolved resolve_first(std::span<const RID> choices, FirstError& errors);
 
 private:
     struct Material {
@@ -41,12 +42,14 @@ private:
         uint64_t version = 0;
         uint64_t resolved_epoch = 0; ///< 0: not resolved
     };
+    const MaterialDesc& resolve(Material& material, FirstError& errors);
     void count_uses(const MaterialDesc& desc, int delta);
 
     TextureStorage& textures_;
     VersionClock& clock_;
     RID_Owner<Material> materials_;
     uint64_t textures_epoch_ = 1;
+    uint64_t last_freed_ = 0; ///< version at which a choice may have fallen through to the next
 };
 
 } // namespace cl

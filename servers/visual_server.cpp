@@ -1,0 +1,89 @@
+#include "servers/visual_server.h"
+
+#include "core/io/log.h"
+#include "servers/visual_server_impl.h"
+
+namespace cl {
+
+VisualServer::VisualServer(std::unique_ptr<Rasterizer> rasterizer)
+    : impl_(std::make_unique<Impl>(std::move(rasterizer))) {}
+
+VisualServer::~VisualServer() = default;
+
+void VisualServer::set_settings(const RenderSettings& settings) { impl_->settings = settings; }
+const RenderSettings& VisualServer::settings() const { return impl_->settings; }
+RasterizerInfo VisualServer::rasterizer_info() const { return impl_->rasterizer->info(); }
+Rasterizer& VisualServer::rasterizer() { return *impl_->rasterizer; }
+
+Status VisualServer::draw() {
+    FirstError errors;
+    bool to_window = false;
+    impl_->instances.update();
+    impl_->frame_stats = {};
+    impl_->viewports.for_each([&](RID, Viewport& viewport) {
+        errors.note(impl_->draw_viewport(viewport));
+        to_window = to_window || viewport.to_window;
+    });
+    errors.note(impl_->probes.step());
+    if (to_window) {
+        impl_->rasterizer->present();
+    }
+    return errors.status();
+}
+
+void VisualServer::settle() {
+    // Set up and light, upload, find nothing: three rounds, and one more for data that changed on the way.
+    constexpr int kMaxRounds = 16;
+    for (int round = 0; round < kMaxRounds; ++round) {
+        impl_->instances.update();
+        if (const Status stepped = impl_->probes.step(); !stepped) {
+            log_error(stepped.error().message);
+        }
+        if (impl_->probes.is_settled()) {
+            return;
+        }
+        impl_->worker.wait();
+    }
+    log_warning("GI probes did not come to rest");
+}
+
+bool VisualServer::is_settled() {
+    impl_->instances.update();
+    return impl_->probes.is_settled();
+}
+
+ServerStats VisualServer::stats() const {
+    ServerStats stats;
+    stats.frame = impl_->frame_stats;
+    stats.relight_ms = impl_->probes.relight_ms();
+    stats.upload_ms = impl_->probes.upload_ms();
+    impl_->instances.for_each([&stats](RID, const Instance& instance) {
+        const bool light = instance.kind == InstanceKind::DirectionalLight || instance.kind == InstanceKind::LocalLight;
+        stats.lights += instance.scenario && light && instance.visible ? 1 : 0;
+        stats.instances += instance.scenario && instance.kind == InstanceKind::Mesh ? 1 : 0;
+    });
+    return stats;
+}
+
+Status VisualServer::free(RID rid) {
+    Impl& impl = *impl_;
+    Storage& storage = impl.storage;
+    if (storage.textures.free(rid)) {
+        storage.materials.forget_resolved();
+        return {};
+    }
+    if (storage.meshes.get(rid) || storage.lights.owns(rid) || storage.gi_probes.owns(rid)) {
+        impl.instances.base_freed(rid);
+    }
+    if (Viewport* viewport = impl.viewports.get(rid)) {
+        const RID target = viewport->target;
+        impl.viewports.free(rid);
+        return target ? impl.rasterizer->free(target) : Status{};
+    }
+    const bool freed = storage.materials.free(rid) || storage.meshes.free(rid) || storage.lights.free(rid) ||
+                       storage.skies.free(rid) || storage.environments.free(rid) || storage.cameras.free(rid) ||
+                       storage.gi_probes.free(rid) || impl.instances.free_scenario(rid) || impl.instances.free(rid);
+    return freed ? Status{} : impl.stale.refuse("free", "a live RID", rid);
+}
+
+} // namespace cl
