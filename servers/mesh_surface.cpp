@@ -137,7 +137,7 @@ uint16_t half_from_float_truncated(float v) noexcept {
         return uint16_t(sign | 0x7C00u);
     }
     if (magnitude < kTwoToMinus14) {
-        return uint16_t(sign);
+        return 0; // the sign goes, too: checked with Godot 3.2.3
     }
     constexpr uint32_t kBiasChange = (127u - 15u) << 23;
     return uint16_t(sign | ((magnitude - kBiasChange) >> 13));

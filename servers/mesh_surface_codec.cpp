@@ -23,8 +23,9 @@ uint8_t snorm8(float v) { return uint8_t(int8_t(truncated(v * 127.0f, -128.0f, 1
 uint8_t unorm8(float v) { return uint8_t(truncated(v * 255.0f, 0.0f, 255.0f)); }
 uint16_t unorm16(float v) { return uint16_t(truncated(v * 65535.0f, 0.0f, 65535.0f)); }
 
-/// As GL reads normalised signed bytes: -128 is -1.
-float from_snorm8(uint8_t byte) { return std::max(float(int8_t(byte)) / 127.0f, -1.0f); }
+/// As GL reads normalised signed bytes: -128 is -1. Times the reciprocal, whose last bit is Godot's; a GI bake of a
+/// sphere shows the difference.
+float from_snorm8(uint8_t byte) { return std::max(float(int8_t(byte)) * (1.0f / 127.0f), -1.0f); }
 
 /// Writes little-endian numbers one after the other (every machine we build for is little-endian).
 class Writer {

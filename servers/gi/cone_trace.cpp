@@ -2,11 +2,11 @@
 
 #include "core/assert.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <glm/common.hpp>
 
 namespace cl::gi {
 

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 namespace cl::gi {
 
-/// A radiance volume with its mips as a GPU would sample it: RGBA8, linear between texels and levels, clamped to
-/// the edge. Levels may be of any size; level 0 is the finest.
+/// A radiance volume with its mips as a GPU would sample it: RGBA8, linear between texels and levels, clamped
+/// to the edge. Levels may be of any size; level 0 is the finest.
 class VolumeSampler {
 public:
     struct Level {
@@ -40,8 +40,8 @@ struct Cone {
     float max_distance = 0.0f;   ///< [voxels]
 };
 
-/// Gathers along a cone: rgb, and in a the opacity met. CPU twin of shaders/lib/cone_trace.glsl, equal to it but for
-/// the hardware's filter precision (8 fraction bits). Source: spec gi-shading section 4.1.
+/// Gathers along a cone: rgb, and in a the opacity met. CPU twin of shaders/lib/cone_trace.glsl, equal to it
+/// but for the hardware's filter precision (8 fraction bits). Source: spec gi-shading section 4.1.
 [[nodiscard]] glm::vec4 trace_cone(const VolumeSampler& volume, const Cone& cone) noexcept;
 
 } // namespace cl::gi

@@ -35,7 +35,7 @@ Attributes attributes_of_vertex(const PlotSurface& s, uint32_t vertex) {
     return {s.uvs.empty() ? glm::vec2(0.0f) : s.uvs[vertex], s.normals.empty() ? glm::vec3(0.0f) : s.normals[vertex]};
 }
 
-/// Step 5 of section 5.
+/// Step 5 of section 5. Also for a q of NaN: its triangle is degenerate, so the determinant is 0.
 Attributes attributes_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q) {
     constexpr float kSameVertex_m2 = 1e-10f;
     for (int k = 0; k < 3; ++k) {
@@ -196,11 +196,11 @@ glm::vec3 closest_point_of_triangle(const glm::vec3 (&v)[3], const glm::vec3& p)
     float t = b * d - a * e;
     const auto along_e0 = [&] { return a > 0.0f ? std::clamp(-d / a, 0.0f, 1.0f) : 0.0f; };
     const auto along_e1 = [&] { return c > 0.0f ? std::clamp(-e / c, 0.0f, 1.0f) : 0.0f; };
+    // A far edge without length divides by zero, and rounding noise in the numerator picks one of its ends, or NaN.
     const auto along_far_edge = [&](float numerator) {
-        const float length2 = a - 2.0f * b + c;
-        return length2 > 0.0f ? std::clamp(numerator / length2, 0.0f, 1.0f) : 0.0f;
+        return std::clamp(numerator / (a - 2.0f * b + c), 0.0f, 1.0f);
     };
-    if (s + t <= determinant) {
+    if (s + t < determinant) {
         if (s < 0.0f && t < 0.0f && d < 0.0f) { // region 4, nearer to e0
             s = along_e0();
             t = 0.0f;
@@ -210,8 +210,8 @@ glm::vec3 closest_point_of_triangle(const glm::vec3 (&v)[3], const glm::vec3& p)
         } else if (t < 0.0f) { // region 5
             s = along_e0();
             t = 0.0f;
-        } else { // region 0, inside; a degenerate triangle is its first vertex
-            const float inverse = determinant > 0.0f ? 1.0f / determinant : 0.0f;
+        } else { // region 0, inside
+            const float inverse = 1.0f / determinant;
             s *= inverse;
             t *= inverse;
         }

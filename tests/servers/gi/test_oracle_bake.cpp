@@ -110,9 +110,10 @@ TEST_SUITE("servers/gi/voxelizer") {
                          << " bytes differ, " << a.bytes - a.within_one << " by more than 1; "
                          << a.inner - a.inner_equal << " of " << a.inner << " inner alphas differ; cells "
                          << ours->cells.size() << " and " << theirs->cells.size());
+            // All of it is equal where this was written. The margin is for compilers that fuse multiplies and adds.
             CHECK(overlap >= 0.999);
-            CHECK(double(a.within_one) >= 0.995 * double(a.bytes));
-            CHECK(double(a.inner_equal) >= 0.995 * double(a.inner));
+            CHECK(double(a.within_one) >= 0.999 * double(a.bytes));
+            CHECK(double(a.inner_equal) >= 0.999 * double(a.inner));
         }
     }
 }
