@@ -1,11 +1,11 @@
 #include "drivers/gles3/directional_splits.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::gles3 {
 
@@ -18,7 +18,8 @@ struct SplitRange {
 };
 
 SplitRange split_range(const LightDesc& light, const CameraDesc& camera) noexcept {
-    const bool limited = camera.projection != Projection::Orthogonal && light.directional_max_distance_m > 0.0f;
+    const bool limited =
+        camera.projection != Projection::Orthogonal && light.directional_max_distance_m > 0.0f;
     const float near_m = camera.near_m;
     const float far_m = limited ? std::min(light.directional_max_distance_m, camera.far_m) : camera.far_m;
     const float range_m = std::max(far_m - near_m, 0.001f);
@@ -75,7 +76,8 @@ void fit_stable(DirectionalSplit& split, const Sphere& sphere, glm::vec2 texels)
     split.high_m = glm::vec3(center + radius, sphere.center.z + sphere.radius);
 }
 
-void fit_optimized(DirectionalSplit& split, const std::array<glm::vec3, 8>& corners, glm::vec2 texels) noexcept {
+void fit_optimized(DirectionalSplit& split, const std::array<glm::vec3, 8>& corners,
+                   glm::vec2 texels) noexcept {
     glm::vec3 low = corners[0];
     glm::vec3 high = corners[0];
     for (const glm::vec3& c : corners) {
@@ -120,8 +122,8 @@ std::array<glm::vec3, 8> view_corners(const CameraDesc& camera, glm::ivec2 frame
 }
 
 DirectionalShadow fit_directional_shadow(const LightDesc& light, const Transform& world_from_light,
-                                         const CameraDesc& camera, glm::ivec2 frame_size, glm::ivec2 area_texels,
-                                         const AABB& casters_bounds) noexcept {
+                                         const CameraDesc& camera, glm::ivec2 frame_size,
+                                         glm::ivec2 area_texels, const AABB& casters_bounds) noexcept {
     DirectionalShadow out;
     out.light_from_world = {glm::transpose(world_from_light.basis), glm::vec3(0.0f)};
     const SplitRange range = split_range(light, camera);

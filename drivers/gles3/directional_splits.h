@@ -5,11 +5,11 @@
 #include "core/math/aabb.h"
 #include "core/math/transform.h"
 
-#include <array>
-
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <array>
 
 namespace cl::gles3 {
 
@@ -18,9 +18,11 @@ inline constexpr int kMaxSplits = 4;
 /// One part of a directional light's shadow map: what it covers and how it is projected.
 struct DirectionalSplit {
     float begin_m = 0.0f, end_m = 0.0f; ///< view depths
-    glm::vec3 low_m{0.0f}, high_m{0.0f}; ///< box in light space: x, y as the map spans them, z = depths 1 and 0
+    glm::vec3 low_m{0.0f},
+        high_m{0.0f}; ///< box in light space: x, y as the map spans them, z = depths 1 and 0
     glm::vec2 tile{0.0f}, tile_size{1.0f}; ///< its part of the light's area, 0..1
-    glm::vec2 bias_m{0.0f};             ///< everywhere, and where a caster is parallel to the light's rays
+    glm::vec2 bias_m{0.0f};                ///< everywhere, and where a caster is parallel to the light's rays
+    friend bool operator==(const DirectionalSplit&, const DirectionalSplit&) = default;
 };
 
 struct DirectionalShadow {
@@ -31,20 +33,21 @@ struct DirectionalShadow {
 
     /// GL clip coordinates of split `i` from light space.
     [[nodiscard]] glm::mat4 clip_from_light(int i) const noexcept;
+    friend bool operator==(const DirectionalShadow&, const DirectionalShadow&) = default;
 };
 
 /// The visible part of the world between two view depths: near corners, then far ones, in view space [m].
-[[nodiscard]] std::array<glm::vec3, 8> view_corners(const CameraDesc& camera, glm::ivec2 frame_size, float begin_m,
-                                                    float end_m) noexcept;
+[[nodiscard]] std::array<glm::vec3, 8> view_corners(const CameraDesc& camera, glm::ivec2 frame_size,
+                                                    float begin_m, float end_m) noexcept;
 
-/// Splits the camera's shadow range and fits a box of light space to each part (spec scene-classes section 9).
-/// Stable depth range: a sphere around the part, moved in whole texels only, so that shadow edges do not crawl when
-/// the camera moves; optimized: the part's own bounds.
+/// Splits the camera's shadow range and fits a box of light space to each part (spec scene-classes section
+/// 9). Stable depth range: a sphere around the part, moved in whole texels only, so that shadow edges do not
+/// crawl when the camera moves; optimized: the part's own bounds.
 /// @param area_texels     size of the light's area of the shadow map
 /// @param casters_bounds  world bounds of the casters: what is nearer to the light is not cut off
-[[nodiscard]] DirectionalShadow fit_directional_shadow(const LightDesc& light, const Transform& world_from_light,
-                                                       const CameraDesc& camera, glm::ivec2 frame_size,
-                                                       glm::ivec2 area_texels, const AABB& casters_bounds) noexcept;
+[[nodiscard]] DirectionalShadow
+fit_directional_shadow(const LightDesc& light, const Transform& world_from_light, const CameraDesc& camera,
+                       glm::ivec2 frame_size, glm::ivec2 area_texels, const AABB& casters_bounds) noexcept;
 
 /// Part `index` of a shadow map that `count` lights share: halves for 2, quarters for up to 4, and so on.
 /// @return position and size, 0..1

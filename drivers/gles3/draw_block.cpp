@@ -1,11 +1,11 @@
 #include "drivers/gles3/draw_block.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::gles3 {
 
@@ -15,12 +15,15 @@ namespace {
 constexpr float kMaxReach = 4096.0f;
 constexpr float kMaxBias = 1024.0f;
 
-bool is_finite(const glm::vec3& v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::vec3& v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 void set_place(shaders::DrawBlock& block, const DrawItem& item, const Transform& world_from_view) noexcept {
     const Transform view_from_local = world_from_view.inverse() * item.world_from_local;
     block.draw_view_from_local = view_from_local.to_mat4();
-    // Godot turns normals like positions unless the material asks for more: wrong under uneven scale, but its look.
+    // Godot turns normals like positions unless the material asks for more: wrong under uneven scale, but its
+    // look.
     const glm::mat3 normals = item.material->ensure_correct_normals
                                   ? glm::transpose(glm::inverse(view_from_local.basis))
                                   : view_from_local.basis;
@@ -110,8 +113,8 @@ shaders::DrawBlock make_draw_block(const DrawItem& item, const Transform& world_
     for (size_t i = 0; i < item.gi_probes.size(); ++i) {
         const int index = item.gi_probes[i];
         if (index >= 0 && static_cast<size_t>(index) < probes.size()) {
-            block.draw_gi[i] = make_gi_probe(probes[static_cast<size_t>(index)], world_from_view,
-                                             item.receives_baked_light);
+            block.draw_gi[i] =
+                make_gi_probe(probes[static_cast<size_t>(index)], world_from_view, item.receives_baked_light);
         }
     }
     return block;

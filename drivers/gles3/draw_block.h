@@ -1,8 +1,8 @@
 #pragma once
 
-#include "servers/rasterizer.h"
-
 #include "drivers/gles3/shaders.h"
+
+#include "servers/rasterizer.h"
 
 #include <span>
 

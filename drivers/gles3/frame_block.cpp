@@ -2,12 +2,12 @@
 
 #include "core/assert.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::gles3 {
 
@@ -133,8 +133,10 @@ glm::vec3 background_color(const Frame& frame) noexcept {
     return is_color ? linear_from_srgb(frame.environment.background_color.rgb()) : glm::vec3(0.0f);
 }
 
-shaders::FrameBlock make_frame_block(const Frame& frame, std::span<const PlacedDirectionalShadow> shadows) noexcept {
-    CL_ASSERT(shadows.size() == static_cast<size_t>(frame.directional_count), "one shadow per directional light");
+shaders::FrameBlock make_frame_block(const Frame& frame,
+                                     std::span<const PlacedDirectionalShadow> shadows) noexcept {
+    CL_ASSERT(shadows.size() == static_cast<size_t>(std::min(frame.directional_count, kMaxDirectionalLights)),
+              "one shadow per directional light");
     FrameBlock block;
     const Transform& world_from_view = frame.camera.world_from_camera;
     block.frame_clip_from_view = projection_matrix(frame.camera, frame.size);

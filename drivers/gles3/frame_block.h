@@ -1,10 +1,9 @@
 #pragma once
 
 #include "drivers/gles3/directional_splits.h"
+#include "drivers/gles3/shaders.h"
 
 #include "servers/rasterizer.h"
-
-#include "drivers/gles3/shaders.h"
 
 #include <span>
 
@@ -28,7 +27,8 @@ struct PlacedDirectionalShadow {
 [[nodiscard]] shaders::FrameBlock make_frame_block(const Frame& frame,
                                                    std::span<const PlacedDirectionalShadow> shadows) noexcept;
 
-/// A light's colour times energy, with the pi that makes a white Lambert surface facing it send out radiance 1.
+/// A light's colour times energy, with the pi that makes a white Lambert surface facing it send out
+/// radiance 1.
 [[nodiscard]] glm::vec3 light_color(const LightDesc& light) noexcept;
 
 /// The background's colour, linear: clear colour or background colour, else black.

@@ -2,12 +2,12 @@
 
 #include "drivers/gles3/frame_block.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::gles3 {
 
@@ -45,7 +45,8 @@ shaders::LocalLight make_local_light(const LightItem& light, const Transform& wo
     if (!shadow) {
         return out;
     }
-    out.shadow_rect = glm::vec4(shadow->rect.position, shadow->rect.size) / static_cast<float>(shadow->atlas_size);
+    out.shadow_rect =
+        glm::vec4(shadow->rect.position, shadow->rect.size) / static_cast<float>(shadow->atlas_size);
     const glm::mat4 light_from_view = view_from_light.inverse().to_mat4();
     if (desc.type == LightType::Omni) {
         out.shadow_from_view = light_from_view;

@@ -1,17 +1,16 @@
 #pragma once
 
-#include "servers/rasterizer.h"
-
+#include "drivers/gles3/gl/draw_state.h"
 #include "drivers/gles3/shaders.h"
 
-#include "drivers/gles3/gl/draw_state.h"
+#include "servers/rasterizer.h"
+
+#include <glm/mat4x4.hpp>
 
 #include <map>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include <glm/mat4x4.hpp>
 
 namespace cl::gles3 {
 
@@ -21,8 +20,8 @@ struct PlacedLocalShadow {
     int atlas_size = 1; ///< [texels]
 };
 
-/// View volume of a spot's shadow map: clip from light space (spec scene-classes section 9). 90 degrees and more cast
-/// no shadow.
+/// View volume of a spot's shadow map: clip from light space (spec scene-classes section 9). 90 degrees and
+/// more cast no shadow.
 [[nodiscard]] glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept;
 inline constexpr float kLocalShadowNear = 0.01f; ///< [m]
 
@@ -33,7 +32,8 @@ inline constexpr float kLocalShadowNear = 0.01f; ///< [m]
 /// One copy of the LightSet block for every different choice of lights among the draws.
 class LightSets {
 public:
-    /// @param lights  made by make_local_light, by the frame's light index; those of directional lights are unused
+    /// @param lights  made by make_local_light, by the frame's light index; those of directional lights are
+    /// unused
     explicit LightSets(std::span<const shaders::LocalLight> lights) : lights_(lights) {}
 
     /// Index of the set with the item's lights.

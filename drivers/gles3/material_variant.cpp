@@ -1,8 +1,8 @@
 #include "drivers/gles3/material_variant.h"
 
-#include "servers/mesh_surface.h"
-
 #include "drivers/gles3/shaders.h"
+
+#include "servers/mesh_surface.h"
 
 namespace cl::gles3 {
 
@@ -59,8 +59,8 @@ uint32_t reflection_bits(const MaterialDesc& m) noexcept {
 
 /// Larger sets bind stand-ins, so that a scene's materials share few variants.
 uint32_t map_bits(const MaterialDesc& m, uint32_t format) noexcept {
-    const bool has_more = m.metallic_texture || m.roughness_texture || (m.emission_enabled && m.emission_texture) ||
-                          (m.ao_enabled && m.ao_texture);
+    const bool has_more = m.metallic_texture || m.roughness_texture ||
+                          (m.emission_enabled && m.emission_texture) || (m.ao_enabled && m.ao_texture);
     // Without tangents there is no frame to turn a normal in.
     const bool has_normals = m.normal_enabled && m.normal_texture && (format & surface_format::kTangent);
     uint32_t bits = m.albedo_texture || has_more || has_normals ? Scene::kAlbedoMap : 0u;
@@ -70,8 +70,9 @@ uint32_t map_bits(const MaterialDesc& m, uint32_t format) noexcept {
 }
 
 uint32_t frame_bits(const FrameFeatures& f) noexcept {
-    return (f.sky ? Scene::kSky : 0u) | (f.fog ? Scene::kFog : 0u) | (f.directional ? Scene::kDirectional : 0u) |
-           (f.omni ? Scene::kOmni : 0u) | (f.spot ? Scene::kSpot : 0u);
+    return (f.sky ? Scene::kSky : 0u) | (f.fog ? Scene::kFog : 0u) |
+           (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
+           (f.spot ? Scene::kSpot : 0u);
 }
 
 uint32_t gi_bits(const DrawItem& item, GIMode mode) noexcept {
@@ -131,13 +132,17 @@ bool is_opaque_prepass(const MaterialDesc& m) noexcept {
     return m.transparent && !m.alpha_scissor && m.depth_draw_mode == DepthDrawMode::AlphaOpaquePrepass;
 }
 
-bool has_holes(const MaterialDesc& m) noexcept { return m.alpha_scissor || is_opaque_prepass(m); }
+bool has_holes(const MaterialDesc& m) noexcept {
+    return m.alpha_scissor || is_opaque_prepass(m);
+}
 
 float hole_threshold(const MaterialDesc& m) noexcept {
     return m.alpha_scissor ? m.alpha_scissor_threshold : kOpaqueAlpha;
 }
 
-bool writes_depth(const MaterialDesc& m) noexcept { return m.depth_draw_mode != DepthDrawMode::Never; }
+bool writes_depth(const MaterialDesc& m) noexcept {
+    return m.depth_draw_mode != DepthDrawMode::Never;
+}
 
 uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeatures& features, GIMode gi_mode,
                        Prepass prepass) noexcept {
@@ -168,7 +173,8 @@ gl::DrawState transparent_state(const DrawItem& item) noexcept {
     const MaterialDesc& m = *item.material;
     gl::DrawState s;
     s.depth_test = m.no_depth_test ? gl::DepthTest::Off : gl::DepthTest::LessEqual;
-    s.write = m.depth_draw_mode == DepthDrawMode::Always ? gl::WriteMask::ColorAndDepth : gl::WriteMask::Color;
+    s.write =
+        m.depth_draw_mode == DepthDrawMode::Always ? gl::WriteMask::ColorAndDepth : gl::WriteMask::Color;
     s.cull = cull_of(m.cull_mode);
     s.front_face = front_face(item);
     s.blend = blend_of(m.blend_mode);

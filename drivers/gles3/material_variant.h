@@ -9,8 +9,9 @@
 
 namespace cl::gles3 {
 
-// Which variant of the scene shader a surface needs. Compiling one costs 100 to 300 ms on llvmpipe, whose branches
-// save nothing: hence variants, but few. What varies for the whole frame is in all variants of that frame.
+// Which variant of the scene shader a surface needs. Compiling one costs 100 to 300 ms on llvmpipe, whose
+// branches save nothing: hence variants, but few. What varies for the whole frame is in all variants of that
+// frame.
 
 /// The depth prepass has run: what the alpha scissor cuts out is already settled by equal depth.
 enum class Prepass : uint8_t { None, Done };

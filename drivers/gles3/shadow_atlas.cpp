@@ -19,7 +19,8 @@ ShadowAtlas::ShadowAtlas(int size) : size_(size) {
         const int rows = kQuadrantRows[q];
         const int edge = quadrant / rows;
         for (int i = 0; i < rows * rows && edge >= kLeastSlot; ++i) {
-            const glm::ivec2 corner = glm::ivec2(q & 1, q >> 1) * quadrant + glm::ivec2(i % rows, i / rows) * edge;
+            const glm::ivec2 corner =
+                glm::ivec2(q & 1, q >> 1) * quadrant + glm::ivec2(i % rows, i / rows) * edge;
             slots_.push_back({{corner, {edge, edge}}, RID{}});
         }
     }

@@ -11,8 +11,8 @@
 
 namespace cl::gles3 {
 
-/// Which part of the shadow atlas each omni and spot light draws to. The atlas is cut in four quadrants, these in
-/// 1, 4, 16 and 64 slots (spec scene-classes section 9). Pure bookkeeping: no GL.
+/// Which part of the shadow atlas each omni and spot light draws to. The atlas is cut in four quadrants,
+/// these in 1, 4, 16 and 64 slots (spec scene-classes section 9). Pure bookkeeping: no GL.
 class ShadowAtlas {
 public:
     /// @param size  edge [texels]; below 16 there are no slots
@@ -23,8 +23,8 @@ public:
         RID light;
         int wanted = 0; ///< edge of the slot it would like [texels]
     };
-    /// Gives every light a slot: one it has already if that is of the size it wants, else the smallest free one that
-    /// is large enough, else the largest free one. Lights that want most choose first.
+    /// Gives every light a slot: one it has already if that is of the size it wants, else the smallest free
+    /// one that is large enough, else the largest free one. Lights that want most choose first.
     /// @return by request; std::nullopt where no slot was left (the light then casts no shadow).
     std::vector<std::optional<gl::Rect>> assign(std::span<const Request> requests);
 

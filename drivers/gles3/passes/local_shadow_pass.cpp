@@ -1,0 +1,198 @@
+#include "drivers/gles3/passes/local_shadow_pass.h"
+
+#include "drivers/gles3/gl/state.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace cl::gles3 {
+
+namespace {
+
+constexpr int kMaxFace = 512; ///< edge of an omni's cube face [texels]
+constexpr int kMinFace = 16;
+constexpr gl::SamplerDesc kCompareSampler{.filter = gl::Filter::Linear, .compare = gl::Compare::LessEqual};
+
+bool casts_local_shadow(const LightItem& light) noexcept {
+    const LightDesc& d = *light.desc;
+    // A spot of 90 degrees and more has no perspective that could hold its map.
+    return d.shadow && d.range_m > 2.0f * kLocalShadowNear &&
+           (d.type == LightType::Omni || (d.type == LightType::Spot && d.spot_angle_deg < 90.0f));
+}
+
+/// View matrix of a cube's face, as GL lays cube maps out.
+glm::mat4 face_from_light(gl::CubeFace face) noexcept {
+    static const glm::vec3 kForward[6] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    static const glm::vec3 kUp[6] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
+    const auto i = static_cast<size_t>(face);
+    return glm::lookAt(glm::vec3(0.0f), kForward[i], kUp[i]);
+}
+
+Transform transform_from(const glm::mat4& m) noexcept {
+    return {glm::mat3(m), glm::vec3(m[3])};
+}
+
+glm::mat4 face_clip_from_light(float range_m) noexcept {
+    CameraDesc camera;
+    camera.fov_deg = 90.0f;
+    camera.near_m = kLocalShadowNear;
+    camera.far_m = range_m;
+    return projection_matrix(camera, glm::ivec2(1));
+}
+
+} // namespace
+
+float light_coverage(const LightItem& light, const CameraDesc& camera, glm::ivec2 frame_size) noexcept {
+    const float range_m = light.desc->range_m;
+    const float distance_m = glm::length(light.world_from_light.origin - camera.world_from_camera.origin);
+    const glm::mat4 clip_from_view = projection_matrix(camera, frame_size);
+    const bool perspective = clip_from_view[2][3] != 0.0f;
+    if (perspective && distance_m <= range_m) {
+        return 1.0f;
+    }
+    return std::min(1.0f, range_m * clip_from_view[1][1] / (perspective ? distance_m : 1.0f));
+}
+
+Status LocalShadowPass::prepare_atlas(int size) {
+    if (atlas_ && atlas_->slots.size() == size) {
+        return {};
+    }
+    drawn_.clear();
+    atlas_.reset();
+    Expected<gl::Texture2D> texture = gl::Texture2D::create({.size = {size, size},
+                                                             .format = gl::Format::Depth24,
+                                                             .sampler = kCompareSampler,
+                                                             .label = "shadow atlas"});
+    if (!texture) {
+        return texture.error();
+    }
+    Expected<gl::Framebuffer> framebuffer =
+        gl::Framebuffer::create({.depth = {&*texture}, .label = "shadow atlas"});
+    if (!framebuffer) {
+        return framebuffer.error();
+    }
+    atlas_.emplace(Atlas{*std::move(texture), *std::move(framebuffer), ShadowAtlas(size)});
+    return {};
+}
+
+Expected<const LocalShadowPass::Cube*> LocalShadowPass::cube_of(int size) {
+    if (const auto found = cubes_.find(size); found != cubes_.end()) {
+        return static_cast<const Cube*>(&found->second);
+    }
+    Expected<gl::TextureCube> texture = gl::TextureCube::create({.size = size,
+                                                                 .format = gl::Format::Depth24,
+                                                                 .sampler = {.filter = gl::Filter::Nearest},
+                                                                 .label = "omni shadow faces"});
+    if (!texture) {
+        return texture.error();
+    }
+    Cube cube{*std::move(texture), {}};
+    for (int face = 0; face < 6; ++face) {
+        Expected<gl::Framebuffer> f =
+            gl::Framebuffer::create({.depth = {&cube.texture, 0, face}, .label = "omni shadow face"});
+        if (!f) {
+            return f.error();
+        }
+        cube.faces.push_back(*std::move(f));
+    }
+    return static_cast<const Cube*>(&cubes_.emplace(size, std::move(cube)).first->second);
+}
+
+Status LocalShadowPass::draw_spot(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+                                  CasterDraw& casters) {
+    gl::Pass pass(
+        {.label = "spot shadow", .target = &atlas_->framebuffer, .viewport = rect, .depth = gl::Load::Clear});
+    const CasterView view{light.world_from_light.inverse(),
+                          spot_clip_from_light(*light.desc),
+                          {light.desc->shadow_bias_m, 0.0f}};
+    return casters.draw(pass, light, view, resources);
+}
+
+Status LocalShadowPass::draw_face(const LightItem& light, const gl::Framebuffer& target, gl::CubeFace face,
+                                  const Resources& resources, CasterDraw& casters) {
+    gl::Pass pass({.label = "omni shadow face", .target = &target, .depth = gl::Load::Clear});
+    // The bias is added to the distance when the faces are folded.
+    const CasterView view{transform_from(face_from_light(face)) * light.world_from_light.inverse(),
+                          face_clip_from_light(light.desc->range_m),
+                          {0.0f, 0.0f}};
+    return casters.draw(pass, light, view, resources);
+}
+
+Status LocalShadowPass::draw_omni(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+                                  CasterDraw& casters) {
+    using S = shaders::OmniParaboloid;
+    const Expected<const Cube*> cube = cube_of(std::clamp(rect.size.x / 2, kMinFace, kMaxFace));
+    if (!cube) {
+        return cube.error();
+    }
+    for (size_t face = 0; face < 6; ++face) {
+        const gl::Framebuffer& target = (*cube)->faces[face];
+        if (Status s = draw_face(light, target, static_cast<gl::CubeFace>(face), resources, casters); !s) {
+            return s;
+        }
+    }
+    const auto program = paraboloid_.get(0);
+    if (!program) {
+        return program.error();
+    }
+    (*program)->set(S::near_far, glm::vec2(kLocalShadowNear, light.desc->range_m));
+    (*program)->set(S::bias, light.desc->shadow_bias_m);
+    (*program)->set(S::range, light.desc->range_m);
+    (*program)->bind(S::faces, (*cube)->texture);
+    gl::Pass pass({.label = "omni shadow", .target = &atlas_->framebuffer, .viewport = rect});
+    constexpr gl::DrawState kDepthOnly{gl::DepthTest::Always, gl::WriteMask::Depth, gl::Cull::Off};
+    pass.draw_fullscreen(**program, resources.no_vertices, kDepthOnly);
+    return {};
+}
+
+Expected<std::vector<std::optional<PlacedLocalShadow>>>
+LocalShadowPass::draw(const Frame& frame, const Resources& resources, CasterDraw& casters) {
+    std::vector<std::optional<PlacedLocalShadow>> placed(frame.lights.size());
+    std::vector<ShadowAtlas::Request> requests;
+    std::vector<size_t> owners; // light index by request
+    const int limit = gl::State::current().capabilities().max_texture_size;
+    const int atlas_size = std::clamp(frame.shadow_atlas_size, 0, limit);
+    for (size_t i = 0; i < frame.lights.size(); ++i) {
+        const LightItem& light = frame.lights[i];
+        if (casts_local_shadow(light)) {
+            const float coverage = light_coverage(light, frame.camera, frame.size);
+            requests.push_back({light.key, wanted_slot_size(coverage, atlas_size)});
+            owners.push_back(i);
+        }
+    }
+    if (requests.empty()) {
+        return placed;
+    }
+    if (Status s = prepare_atlas(std::max(atlas_size, 1)); !s) {
+        return s.error();
+    }
+    const std::vector<std::optional<gl::Rect>> slots = atlas_->slots.assign(requests);
+    std::map<RID, Drawn> drawn;
+    for (size_t i = 0; i < requests.size(); ++i) {
+        if (!slots[i]) {
+            continue;
+        }
+        const LightItem& light = frame.lights[owners[i]];
+        const LightDesc& d = *light.desc;
+        const Drawn now{*slots[i],       light.world_from_light, light.casters_version,      d.range_m,
+                        d.shadow_bias_m, d.spot_angle_deg,       d.shadow_reverse_cull_face, d.type};
+        const auto before = drawn_.find(light.key);
+        if (before == drawn_.end() || !(before->second == now)) {
+            Status s = d.type == LightType::Omni ? draw_omni(light, *slots[i], resources, casters)
+                                                 : draw_spot(light, *slots[i], resources, casters);
+            if (!s) {
+                return s.error();
+            }
+        }
+        drawn.emplace(light.key, now);
+        placed[owners[i]] = PlacedLocalShadow{*slots[i], atlas_->slots.size()};
+    }
+    drawn_ = std::move(drawn); // what was not asked for has lost its slot
+    return placed;
+}
+
+} // namespace cl::gles3

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "drivers/gles3/gl/framebuffer.h"
+#include "drivers/gles3/gl/texture.h"
+#include "drivers/gles3/light_sets.h"
+#include "drivers/gles3/passes/caster_draw.h"
+#include "drivers/gles3/shadow_atlas.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace cl::gles3 {
+
+/// The shadow maps of omni and spot lights, in one atlas. A map is kept while its light, its casters and its
+/// place stay as they are (spec scene-classes section 9). An omni's six faces are drawn to a cube and folded
+/// into two paraboloids.
+class LocalShadowPass {
+public:
+    /// Brings the maps of the frame's lights up to date.
+    /// @return their places by light index; empty for lights that cast none or found no slot.
+    Expected<std::vector<std::optional<PlacedLocalShadow>>>
+    draw(const Frame& frame, const Resources& resources, CasterDraw& casters);
+    /// Depth with hardware compare; nullptr before any light needed it.
+    [[nodiscard]] const gl::Texture2D* atlas() const noexcept { return atlas_ ? &atlas_->texture : nullptr; }
+
+private:
+    struct Atlas {
+        gl::Texture2D texture;
+        gl::Framebuffer framebuffer;
+        ShadowAtlas slots;
+    };
+    struct Cube {
+        gl::TextureCube texture;
+        std::vector<gl::Framebuffer> faces; ///< in the order of gl::CubeFace
+    };
+    /// All that a map's texels depend on.
+    struct Drawn {
+        gl::Rect rect;
+        Transform world_from_light;
+        uint64_t casters_version = 0;
+        float range_m = 0.0f, bias_m = 0.0f, spot_angle_deg = 0.0f;
+        bool reverse_cull = false;
+        LightType type = LightType::Omni;
+        friend bool operator==(const Drawn&, const Drawn&) = default;
+    };
+    Status prepare_atlas(int size);
+    Expected<const Cube*> cube_of(int size);
+    Status draw_spot(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+                     CasterDraw& casters);
+    Status draw_omni(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+                     CasterDraw& casters);
+    Status draw_face(const LightItem& light, const gl::Framebuffer& target, gl::CubeFace face,
+                     const Resources& resources, CasterDraw& casters);
+
+    std::optional<Atlas> atlas_;
+    std::map<int, Cube> cubes_; ///< by edge [texels]
+    std::map<RID, Drawn> drawn_;
+    gl::ShaderVariants<shaders::OmniParaboloid> paraboloid_;
+};
+
+/// Part of the picture's height that a light's reach covers: 1 if the camera is within it.
+[[nodiscard]] float light_coverage(const LightItem& light, const CameraDesc& camera,
+                                   glm::ivec2 frame_size) noexcept;
+
+} // namespace cl::gles3
