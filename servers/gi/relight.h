@@ -1,11 +1,15 @@
 #pragma once
 
+#include "servers/gi/leaf_bitmap.h"
 #include "servers/gi/probe_data.h"
 #include "servers/render_types.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <glm/ext/vector_uint3_sized.hpp>
+#include <glm/vec3.hpp>
 
 namespace cl::gi {
 
@@ -26,39 +30,47 @@ struct CachedLight {
 using Energy = uint16_t; ///< 1024 = radiance 1.0
 
 /// The octree laid out for relighting: leaves in slot order (Morton-like), cells level by level.
-/// Structure only; the energies live in LightVolume.
+/// Structure only; energies are kept by the caller.
 struct CellLayout {
     int levels = 0;
     glm::ivec3 dims{0};
     struct Leaf {
-        uint32_t cell;
-        glm::u16vec3 voxel;
-        glm::u8vec3 albedo;
-        glm::vec3 normal; ///< byte / 255 * 2 - 1, not renormalised
+        uint32_t cell = 0;
+        glm::u16vec3 voxel{0};
+        glm::u8vec3 albedo{0};
+        glm::vec3 normal{0.0f}; ///< byte / 255 * 2 - 1, not renormalised
     };
     std::vector<Leaf> leaves;
     std::vector<Cell> cells;                           ///< copy of the octree's
     std::vector<glm::u16vec3> voxels;                  ///< per cell, at its own level
-    std::vector<std::vector<uint32_t>> cells_of_level; ///< post-order within a level
+    std::vector<std::vector<uint32_t>> cells_of_level; ///< [level], in slot order; the last holds the leaves
+    LeafBitmap leaf_bitmap;
 };
+/// Spec gi-update section 3, step 2. @param octree  as decode_octree() and voxelize() return them.
 [[nodiscard]] CellLayout make_layout(const Octree& octree);
 
-/// Energies of all cells [3 per cell].
+/// Energies of all cells.
 struct CellEnergies {
-    std::vector<Energy> rgb; ///< 3 * cell count
+    std::vector<Energy> rgb; ///< 3 * cell count, in the order of layout.cells
 };
+
 /// Emission as energy of each leaf [3 per leaf]: where the sums of inject_light() start (section 3, step 2).
 [[nodiscard]] std::vector<int32_t> emission_energies(const CellLayout& layout);
 
-/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5).
-/// Sums are int32 and exact, so taking a light out restores the bytes from before it came; they never wrap.
+/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5). An invisible light, and one whose numbers
+/// are not finite, reaches none.
+/// Sums are int32 and exact, so removing a light restores the numbers from before it came; one light adds at most
+/// 2^24 (radiance 16384), so that more than a hundred of the strongest fit. The result is the same for any number of
+/// threads.
 /// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
-/// Departs from Godot: the clip planes are reset for each leaf, so no light passes walls (section 5.4).
+/// Departs from Godot: the clip planes are reset for each leaf, so no light passes walls (section 5.4), and a leaf
+/// exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
 void inject_light(const CellLayout& layout, const CachedLight& light, int sign, std::span<int32_t> leaf_energies);
 
 /// Energies of every cell from the leaves' sums (clamped to 0..65535 here, where Godot wraps), down-sampled level
 /// by level (section 6). The same bytes for any history of light edits.
 /// @param leaf_energies  3 per leaf, unclamped sums of emission and lights, kept between calls.
+/// @param propagation    0: mean over eight children, empty ones black; 1: mean over those that exist.
 void energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies, float propagation,
                           CellEnergies& out);
 
@@ -67,8 +79,12 @@ struct MipLevel {
     glm::ivec3 size{0};
     std::vector<uint8_t> rgba8; ///< x fastest, then y, then z
 };
+/// Levels of the texture: dims are halved until one of them is 1.
 [[nodiscard]] int mip_count(const glm::ivec3& dims) noexcept;
-/// rgb = energy / dynamic range, a = opacity (section 7). `levels` is reused between calls.
+/// rgb = energy / dynamic range, a = opacity (section 7): the bytes of every level of the texture.
+/// @param dynamic_range  less than 1 counts as 1.
+/// @param levels  empty, or as a former call for the same layout left them: then only occupied texels are written,
+///                which is most of the saving of a relight.
 void encode_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
                  std::vector<MipLevel>& levels);
 

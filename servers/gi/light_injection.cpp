@@ -1,0 +1,191 @@
+// One light's bounce at every leaf it reaches (spec gi-update section 5).
+#include "servers/gi/relight.h"
+
+#include "servers/gi/light_march.h"
+
+#include "core/assert.h"
+#include "core/threads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cl::gi {
+
+namespace {
+
+using Leaf = CellLayout::Leaf;
+
+/// Below this much N.L a leaf counts as turned away.
+constexpr float kMinFacing = 0.001f;
+/// Rays end this far from the voxel's centre, toward the light, so that they arrive inside the voxel.
+constexpr float kTowardLight = 0.47f;
+
+constexpr double kMaxEnergy = double(1 << 24);
+
+float dot(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float length(const glm::vec3& v) { return std::sqrt(dot(v, v)); }
+glm::vec3 normalized_or_zero(const glm::vec3& v) {
+    const float l = length(v);
+    return l > 0.0f ? v / l : glm::vec3(0.0f);
+}
+/// -1 below 0, +1 from 0 on.
+glm::vec3 signs(const glm::vec3& v) {
+    return {v.x < 0.0f ? -1.0f : 1.0f, v.y < 0.0f ? -1.0f : 1.0f, v.z < 0.0f ? -1.0f : 1.0f};
+}
+/// b^e, without the call for the usual exponent, whose result is b.
+float power(float base, float exponent) { return exponent == 1.0f ? base : std::pow(base, exponent); }
+
+/// Truncates toward zero and keeps sums far from overflow; NaN gives 0.
+int32_t truncated(double v) {
+    return std::isnan(v) ? 0 : int32_t(std::clamp(v, -kMaxEnergy, kMaxEnergy));
+}
+
+/// A ray toward a leaf and the light's share that arrives if nothing is in its way.
+struct Arrival {
+    March march;
+    float attenuation = 0.0f;
+};
+
+/// A march that starts whole steps before `to`. @param extra_step  sun rays start one step farther out.
+March whole_steps(const glm::ivec3& dims, const glm::vec3& direction, const glm::vec3& from, const glm::vec3& to,
+                  float extra_step) {
+    const float step = advance_of(direction);
+    // Clipped, a ray is no longer than the grid's diagonal and its margins. Where float32 cannot clip (a light 1e9
+    // cells away) this keeps the march short.
+    const float longest = 1.1f * length(glm::vec3(dims)) + 8.0f;
+    float distance = std::min(length(to - clipped_start(dims, direction, from, to)), longest);
+    distance += extra_step * step - remainder_of(distance, step);
+    return {to - direction * distance, direction, distance, step};
+}
+
+/// Section 5.2.
+class Sun {
+public:
+    Sun(const CellLayout& layout, const CachedLight& light)
+        : dims_(layout.dims), direction_(-normalized_or_zero(light.cells_from_light.basis[2])),
+          start_(length(glm::vec3(layout.dims)) * 1.1f) {}
+
+    [[nodiscard]] std::optional<Arrival> at(const Leaf& leaf) const {
+        const float facing = dot(leaf.normal, -direction_);
+        if (!(facing >= kMinFacing)) {
+            return std::nullopt;
+        }
+        const glm::vec3 to = glm::vec3(leaf.voxel) + 0.5f - kTowardLight * signs(direction_);
+        return Arrival{whole_steps(dims_, direction_, to - start_ * direction_, to, 1.0f), facing};
+    }
+
+private:
+    glm::ivec3 dims_;
+    glm::vec3 direction_; ///< of the light's travel
+    float start_;         ///< far enough to be outside of the grid [cells]
+};
+
+/// Section 5.3: omni lights, and spots, which have a cone besides.
+class Lamp {
+public:
+    Lamp(const CellLayout& layout, const CachedLight& light)
+        : dims_(layout.dims), light_(light), position_(light.cells_from_light.origin),
+          axis_(-normalized_or_zero(light.cells_from_light.basis[2])),
+          range_(light.range_m * length(light.cells_from_light.basis[2])) {}
+
+    [[nodiscard]] std::optional<Arrival> at(const Leaf& leaf) const {
+        glm::vec3 to = glm::vec3(leaf.voxel) + 0.5f;
+        to += kTowardLight * signs(position_ - to);
+        const glm::vec3 way = to - position_;
+        const float distance = length(way);
+        if (!(distance > 0.0f)) {
+            return std::nullopt;
+        }
+        const glm::vec3 direction = way / distance;
+        const float facing = dot(leaf.normal, -direction);
+        const float reach = distance + advance_of(direction);
+        if (!(facing >= kMinFacing) || reach > range_) {
+            return std::nullopt;
+        }
+        const float cone = light_.type == LightType::Spot ? cone_share(direction) : 1.0f;
+        const float attenuation = facing * power(1.0f - std::clamp(reach / range_, 0.0f, 1.0f), light_.attenuation);
+        if (cone < 0.0f) {
+            return std::nullopt;
+        }
+        return Arrival{whole_steps(dims_, direction, position_, to, 0.0f), attenuation * cone};
+    }
+
+private:
+    /// Negative outside the cone.
+    [[nodiscard]] float cone_share(const glm::vec3& direction) const {
+        constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+        const float angle_deg = float(std::acos(std::clamp(dot(direction, axis_), -1.0f, 1.0f)) * kDegrees);
+        if (angle_deg > light_.spot_angle_deg) {
+            return -1.0f;
+        }
+        return power(1.0f - std::clamp(angle_deg / light_.spot_angle_deg, 0.0f, 1.0f), light_.spot_attenuation);
+    }
+
+    glm::ivec3 dims_;
+    const CachedLight& light_;
+    glm::vec3 position_; ///< [cells]
+    glm::vec3 axis_;
+    float range_; ///< [cells]
+};
+
+/// Energy that a leaf of this albedo reflects, per channel (section 5.1, "Injection").
+glm::ivec3 reflected(const glm::ivec3& light_color, float attenuation, const glm::u8vec3& albedo) {
+    glm::ivec3 energy(0);
+    for (int c = 0; c < 3; ++c) {
+        const float product = float(light_color[c]) * attenuation * float(albedo[c]);
+        energy[c] = truncated(double(product) / 255.0);
+    }
+    return energy;
+}
+
+template <typename Light>
+void inject(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
+            std::span<int32_t> leaf_energies) {
+    constexpr size_t kGrain = 1024;
+    parallel_for(layout.leaves.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const Leaf& leaf = layout.leaves[i];
+            const std::optional<Arrival> arrival = light.at(leaf);
+            if (!arrival) {
+                continue;
+            }
+            const glm::ivec3 energy = reflected(light_color, arrival->attenuation, leaf.albedo);
+            if (energy == glm::ivec3(0) || !reaches(layout.leaf_bitmap, arrival->march, glm::ivec3(leaf.voxel))) {
+                continue;
+            }
+            for (size_t c = 0; c < 3; ++c) {
+                leaf_energies[i * 3 + c] += energy[int(c)];
+            }
+        }
+    });
+}
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool is_usable(const CachedLight& l) {
+    return is_finite(l.cells_from_light.basis[2]) && is_finite(l.cells_from_light.origin) && is_finite(l.color) &&
+           std::isfinite(l.energy) && std::isfinite(l.range_m) && std::isfinite(l.attenuation) &&
+           std::isfinite(l.spot_angle_deg) && std::isfinite(l.spot_attenuation);
+}
+
+} // namespace
+
+void inject_light(const CellLayout& layout, const CachedLight& light, int sign, std::span<int32_t> leaf_energies) {
+    CL_ASSERT(sign == 1 || sign == -1, "a light comes or goes");
+    CL_ASSERT(leaf_energies.size() == layout.leaves.size() * 3, "three energies a leaf");
+    if (!light.visible || !is_usable(light)) {
+        return;
+    }
+    glm::ivec3 color(0);
+    for (int c = 0; c < 3; ++c) {
+        color[c] = truncated(double(light.color[c] * light.energy) * 1024.0) * sign;
+    }
+    if (light.type == LightType::Directional) {
+        inject(layout, Sun(layout, light), color, leaf_energies);
+    } else {
+        inject(layout, Lamp(layout, light), color, leaf_energies);
+    }
+}
+
+} // namespace cl::gi

@@ -1,0 +1,69 @@
+#include "servers/gi/light_march.h"
+
+#include <cmath>
+
+namespace cl::gi {
+
+namespace {
+
+float4 lanes(const glm::vec3& v) { return float4{v.x, v.y, v.z, 0.0f}; }
+
+/// Rounds toward minus infinity; |v| < 2^31.
+int4 floored(float4 v) {
+    const int4 truncated = __builtin_convertvector(v, int4);
+    return truncated + (__builtin_convertvector(truncated, float4) > v); // -1 where it truncated up
+}
+
+} // namespace
+
+float advance_of(const glm::vec3& direction) noexcept {
+    const glm::vec3 a(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
+    if (a.x >= a.y && a.x >= a.z) {
+        return 1.0f / a.x;
+    }
+    if (a.y > a.x && a.y >= a.z) {
+        return 1.0f / a.y;
+    }
+    return 1.0f / (a.z > a.x && a.z > a.y ? a.z : a.x);
+}
+
+glm::vec3 clipped_start(const glm::ivec3& dims, const glm::vec3& direction, glm::vec3 from,
+                        const glm::vec3& to) noexcept {
+    constexpr float kEpsilon = 1e-5f;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(direction[axis]) < kEpsilon) {
+            continue;
+        }
+        const float plane = direction[axis] < 0.0f ? float(dims[axis] + 1) : -1.0f;
+        const glm::vec3 along = from - to;
+        const float t = (from[axis] - plane) / along[axis];
+        if (std::abs(along[axis]) >= kEpsilon && t >= -kEpsilon && t <= 1.0f + kEpsilon) {
+            from -= t * along;
+        }
+    }
+    return from;
+}
+
+float remainder_of(float a, float b) noexcept {
+    // Products and differences of floats with a quotient below 2^24 are exact in double.
+    const double whole = double(int64_t(double(a) / double(b)));
+    double rest = double(a) - whole * double(b);
+    rest += rest < 0.0 ? double(b) : 0.0;
+    rest -= rest >= double(b) ? double(b) : 0.0;
+    return float(rest);
+}
+
+bool reaches(const LeafBitmap& leaves, const March& march, const glm::ivec3& target) noexcept {
+    float4 at = lanes(march.from);
+    const float4 step = lanes(march.direction * march.step);
+    for (float distance = march.distance; distance > -march.step; distance -= march.step) {
+        const int4 cell = floored(at);
+        if (leaves.contains(cell[0], cell[1], cell[2])) {
+            return cell[0] == target.x && cell[1] == target.y && cell[2] == target.z;
+        }
+        at += step;
+    }
+    return false;
+}
+
+} // namespace cl::gi
