@@ -62,6 +62,8 @@ public:
     [[nodiscard]] std::vector<PropertyValue> stored_properties() const;
     /// Unknown properties met in files, in order of first assignment.
     [[nodiscard]] const std::vector<PropertyValue>& extra_properties() const noexcept { return extra_; }
+    /// Keeps a value that no property takes, so that saving writes it back. set() does so for unknown ones.
+    void keep_extra(const StringName& property, const Variant& value);
 
     /// Calls a registered method. NotFound / InvalidArgument on a wrong name or wrong arguments.
     Expected<Variant> call(const StringName& method, std::span<const Variant> arguments);
@@ -94,7 +96,6 @@ private:
         Slot slot;
         ConnectFlags flags;
     };
-    void keep_extra(const StringName& property, const Variant& value);
     const PropertyValue* find_extra(const StringName& property) const noexcept;
 
     StringName declared_class_;

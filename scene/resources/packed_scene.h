@@ -21,10 +21,11 @@ public:
     PackedScene();
     ~PackedScene() override;
 
-    /// Resources that the file refers to, by id; a null Ref is a file that could not be loaded and may be missing.
+    /// Resources that the file refers to.
     struct Resources {
         std::unordered_map<int64_t, Ref<Resource>> ext;
         std::unordered_map<int64_t, Ref<Resource>> sub;
+        std::unordered_map<std::string, Ref<Resource>> by_path; ///< of `Resource( "path" )` in nodes
     };
 
     /// @param file  the scene as parsed; shared, not changed.
