@@ -1,0 +1,34 @@
+#include "demo/cli/progress_bar.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include <unistd.h>
+
+namespace cl::demo {
+
+namespace {
+constexpr int kWidth = 30; // [characters]
+}
+
+ProgressBar::ProgressBar(std::string title, Verbosity verbosity)
+    : title_(std::move(title)), visible_(verbosity != Verbosity::Quiet && isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+    if (visible_ && last_percent_ >= 0) {
+        std::fputs("\r\x1b[K", stderr); // to the line's start, and erase it
+    }
+}
+
+void ProgressBar::show(float share) {
+    const int percent = static_cast<int>(std::clamp(share, 0.0f, 1.0f) * 100.0f);
+    if (!visible_ || percent == last_percent_) {
+        return;
+    }
+    last_percent_ = percent;
+    const std::string bar(static_cast<size_t>(percent * kWidth / 100), '#');
+    std::fprintf(stderr, "\r%s [%-*s] %3d %%", title_.c_str(), kWidth, bar.c_str(), percent);
+}
+
+} // namespace cl::demo
