@@ -5,6 +5,7 @@
 #include "core/variant/variant_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cl {
 namespace {
@@ -68,7 +69,7 @@ private:
         case Type::Dictionary:
             return write_dictionary(*value.get_if<Dictionary>());
         case Type::Array:
-            return write_list(std::span<const Variant>(*value.get_if<Array>()));
+            return write_array(*value.get_if<Array>());
         case Type::PoolIntArray:
             return write_list(value.get_if<PoolIntArray>()->span());
         case Type::PoolRealArray:
@@ -125,36 +126,62 @@ private:
         text += '[';
         for (size_t i = 0; i < elements.size(); i++) {
             text += i > 0 ? ", " : "";
-            if constexpr (std::is_same_v<T, Variant>) {
-                write(elements[i]);
-            } else {
-                write_any(Variant(elements[i]));
-            }
+            write_any(Variant(elements[i]));
+        }
+        text += ']';
+    }
+
+    void write_array(const Array& array) {
+        if (array.empty()) {
+            text += is_first_empty() ? "[]" : "[...]";
+            return;
+        }
+        text += '[';
+        for (size_t i = 0; i < array.size(); i++) {
+            text += i > 0 ? ", " : "";
+            write(array[i]);
         }
         text += ']';
     }
 
     /// "{a:1, b:2}", sorted by the text of the keys.
     void write_dictionary(const Dictionary& dictionary) {
-        std::vector<std::pair<std::string, const Variant*>> entries;
+        if (dictionary.size() == 0) {
+            text += is_first_empty() ? "{}" : "{...}";
+            return;
+        }
+        std::vector<std::pair<std::string, std::string>> entries;
         for (const auto& [key, value] : dictionary.entries()) {
-            entries.emplace_back(variant_to_str(key), &value);
+            std::string key_text = text_of(key);
+            entries.emplace_back(std::move(key_text), text_of(value));
         }
         std::stable_sort(entries.begin(), entries.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
         text += '{';
         for (size_t i = 0; i < entries.size(); i++) {
-            text += (i > 0 ? ", " : "") + entries[i].first + ':';
-            write(*entries[i].second);
+            text += (i > 0 ? ", " : "") + entries[i].first + ':' + entries[i].second;
         }
         text += '}';
     }
+
+    std::string text_of(const Variant& value) {
+        std::string saved = std::move(text);
+        text.clear();
+        write(value);
+        std::swap(saved, text);
+        return saved;
+    }
+
+    /// Godot guards against containers that contain themselves, but takes all empty ones for the same: from
+    /// the second on it shows them as "...".
+    bool is_first_empty() { return !std::exchange(empty_seen_, true); }
 
     void write_object(const Reference* object) {
         text += '[' + (object ? object->class_name().str() : "Object:null") + ']';
     }
 
     int depth_ = 0;
+    bool empty_seen_ = false;
 };
 
 } // namespace
