@@ -71,6 +71,25 @@ bool is_bookkeeping(std::string_view key) noexcept {
     return key == "script" || key == "__meta__" || key == "_import_path";
 }
 
+void warn_unknown_property(const Object& object, const TextAssignment& assignment, Diagnostics& diagnostics) {
+    if (is_bookkeeping(assignment.key) || stands_in(object) || has_script(object)) {
+        return;
+    }
+    const std::string_view class_name = object.class_name().view();
+    diagnostics.warn(assignment.where,
+                     fmt::format("{} has no property \"{}\": kept, without effect", class_name, assignment.key),
+                     fmt::format("unknown property: {}.{}", class_name, assignment.key));
+}
+
+void warn_unknown_node_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics) {
+    diagnostics.warn(where, fmt::format("nodes of class {} are kept, without effect", type), "node class: " + type);
+}
+
+void warn_unknown_resource_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics) {
+    diagnostics.warn(where, fmt::format("resources of class {} are kept, without effect", type),
+                     "resource class: " + type);
+}
+
 Status assign(Object& object, const TextAssignment& assignment, const Variant& value, Diagnostics& diagnostics) {
     switch (object.set(StringName(assignment.key), value)) {
     case SetResult::Done:
@@ -82,12 +101,7 @@ Status assign(Object& object, const TextAssignment& assignment, const Variant& v
     case SetResult::UnknownProperty:
         break;
     }
-    if (!is_bookkeeping(assignment.key) && !stands_in(object) && !has_script(object)) {
-        const std::string_view class_name = object.class_name().view();
-        diagnostics.warn(assignment.where,
-                         fmt::format("{} has no property \"{}\": kept, without effect", class_name, assignment.key),
-                         fmt::format("unknown property: {}.{}", class_name, assignment.key));
-    }
+    warn_unknown_property(object, assignment, diagnostics);
     return {};
 }
 

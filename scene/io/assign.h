@@ -5,6 +5,9 @@
 #include "core/object/object.h"
 #include "core/variant/variant_parser.h"
 
+#include <string>
+#include <string_view>
+
 namespace cl::scene {
 
 /// Assigns a value from a file to a property and judges what became of it:
@@ -19,5 +22,10 @@ namespace cl::scene {
 
 /// Keys that any node or resource may have and that mean nothing to us: `script`, `__meta__`, `_import_path`.
 [[nodiscard]] bool is_bookkeeping(std::string_view key) noexcept;
+
+// Each is said once for its class, or class and property.
+void warn_unknown_property(const Object& object, const TextAssignment& assignment, Diagnostics& diagnostics);
+void warn_unknown_node_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics);
+void warn_unknown_resource_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics);
 
 } // namespace cl::scene

@@ -39,6 +39,12 @@ bool is_text_resource(const fs::path& file) {
     return magic.substr(0, 3) == "[gd" || magic == "RSRC" || magic == "RSCC"; // the binary ones: a clear error follows
 }
 
+Ref<Resource> missing_resource(const std::string& type) {
+    auto missing = make_ref<MissingResource>();
+    missing->set_declared_class(StringName(type));
+    return missing;
+}
+
 bool is_resource_class(const std::string& type) {
     const ClassInfo* info = ClassRegistry::instance().find(StringName(type));
     return info && info->is_a(StringName(Resource::kClassName));
@@ -163,9 +169,7 @@ Expected<Ref<Resource>> SceneFileResources::load_known_kind(const ExtEntry& entr
 
 Ref<Resource> SceneFileResources::stand_in(const std::string& type, const SourceLocation& where, std::string reason) {
     diagnostics_.warn(where, reason, reason);
-    auto missing = make_ref<MissingResource>();
-    missing->set_declared_class(StringName(type));
-    return missing;
+    return missing_resource(type);
 }
 
 Expected<Ref<Resource>> SceneFileResources::create(const std::string& type, const SourceLocation& where) {
@@ -173,7 +177,8 @@ Expected<Ref<Resource>> SceneFileResources::create(const std::string& type, cons
     const StringName class_name(type);
     const ClassInfo* info = registry.find(class_name);
     if (!info) {
-        return stand_in(type, where, fmt::format("resources of class {} are kept, without effect", type));
+        warn_unknown_resource_class(type, where, diagnostics_);
+        return missing_resource(type);
     }
     if (!info->is_a(StringName(Resource::kClassName))) {
         return Error{ErrorCode::ParseError, fmt::format("expected the class of a resource, found \"{}\"", type), where};

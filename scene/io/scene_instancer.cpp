@@ -140,8 +140,7 @@ private:
         CreatedNode created = create_node(ClassRegistry::instance(), StringName(entry.type),
                                           has_transform ? TransformHint::HasTransform : TransformHint::None);
         if (created.support != NodeSupport::Full) {
-            diagnostics_.warn(entry.where, fmt::format("nodes of class {} are kept, without effect", entry.type),
-                              "node class: " + entry.type);
+            warn_unknown_node_class(entry.type, entry.where, diagnostics_);
         }
         return std::move(created.node);
     }
