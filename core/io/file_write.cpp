@@ -134,7 +134,8 @@ Expected<std::optional<struct stat>> existing_file(const fs::path& target) {
     if (!S_ISREG(status.st_mode) && !S_ISCHR(status.st_mode)) {
         return write_error(target, "cannot write: expected a regular file, found a device, pipe or socket");
     }
-    if (::access(target.c_str(), W_OK) != 0) { // renaming over a read-only file would succeed
+    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) !=
+        0) { // renaming over a read-only file would succeed
         return write_error(target, "cannot write: " + errno_text());
     }
     return std::optional<struct stat>(status);
