@@ -49,6 +49,8 @@ ShadowAtlas::Slot* ShadowAtlas::find_free(int wanted, const std::vector<bool>& t
 std::vector<std::optional<gl::Rect>> ShadowAtlas::assign(std::span<const Request> requests) {
     std::vector<size_t> order(requests.size());
     std::iota(order.begin(), order.end(), size_t{0});
+    // Among equals the last one asked chooses first, as in Godot.
+    std::reverse(order.begin(), order.end());
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return requests[a].wanted > requests[b].wanted; });
     std::vector<std::optional<gl::Rect>> out(requests.size());

@@ -39,7 +39,7 @@ private:
     std::vector<Slot> slots_; ///< largest first
 };
 
-/// The slot size that a light deserves which covers this part of the picture's height (1: all of it).
+/// The slot size that a light of this coverage deserves (1: the largest). @see light_coverage
 [[nodiscard]] int wanted_slot_size(float coverage, int atlas_size) noexcept;
 
 } // namespace cl::gles3

@@ -1,6 +1,6 @@
 #include "drivers/gles3/texture_storage.h"
 
-#include "drivers/gles3/mip_chain.h"
+#include "core/image/mipmap.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/packing.hpp>
@@ -45,39 +45,30 @@ std::vector<uint16_t> halves_of(std::span<const float> values) {
     return halves;
 }
 
-Status upload_levels_rgba8(gl::Texture2D& texture, std::vector<uint8_t> level) {
-    glm::ivec2 size(texture.size());
-    for (int mip = 0;; ++mip) {
-        if (Status s = texture.upload(mip, glm::ivec2(0), size, std::as_bytes(std::span(level))); !s) {
-            return s;
-        }
-        if (mip + 1 == texture.mips()) {
-            return {};
-        }
-        const glm::ivec2 half = next_mip_size(size);
-        std::vector<uint8_t> coarse(static_cast<size_t>(half.x) * static_cast<size_t>(half.y) * 4);
-        downsample_rgba8(level, size, coarse);
-        level = std::move(coarse);
-        size = half;
+/// Uploads one level; floats as halves.
+Status upload_level(gl::Texture2D& texture, int mip, const Image& level) {
+    if (level.format == PixelFormat::RGBAF) {
+        const std::vector<uint16_t> halves = halves_of(level.floats());
+        return texture.upload(mip, glm::ivec2(0), level.size, std::as_bytes(std::span(halves)));
     }
+    return texture.upload(mip, glm::ivec2(0), level.size, std::as_bytes(std::span(level.data)));
 }
 
-Status upload_levels_rgba16f(gl::Texture2D& texture, std::vector<float> level) {
-    glm::ivec2 size(texture.size());
-    for (int mip = 0;; ++mip) {
-        const std::vector<uint16_t> halves = halves_of(level);
-        if (Status s = texture.upload(mip, glm::ivec2(0), size, std::as_bytes(std::span(halves))); !s) {
+/// Uploads the image and, if the texture has levels for them, its mips. These are means of the stored values,
+/// also of sRGB ones, as Godot 3.2.3 makes them: a checkerboard of 0 and 255 that is minified shows 128,
+/// where the mean of the light would show 188 (measured). Not by the driver, so that all drivers sample the
+/// same bytes.
+Status upload_levels(gl::Texture2D& texture, const Image& image) {
+    if (Status s = upload_level(texture, 0, image); !s || texture.mips() == 1) {
+        return s;
+    }
+    int mip = 0;
+    for (const Image& level : build_mips(image)) {
+        if (Status s = upload_level(texture, ++mip, level); !s) {
             return s;
         }
-        if (mip + 1 == texture.mips()) {
-            return {};
-        }
-        const glm::ivec2 half = next_mip_size(size);
-        std::vector<float> coarse(static_cast<size_t>(half.x) * static_cast<size_t>(half.y) * 4);
-        downsample_rgba32f(level, size, coarse);
-        level = std::move(coarse);
-        size = half;
     }
+    return {};
 }
 
 Expected<gl::Texture2D> make_texel(std::array<uint8_t, 4> rgba, std::string_view label) {
@@ -132,16 +123,9 @@ Expected<RID> TextureStorage::create(const Image& image, const TextureParams& pa
     if (!texture) {
         return texture.error();
     }
-    Image expanded = image.converted_to(floats ? PixelFormat::RGBAF : PixelFormat::RGBA8);
-    Status uploaded;
-    if (floats) {
-        const std::span<const float> values = expanded.floats();
-        uploaded = upload_levels_rgba16f(*texture, std::vector<float>(values.begin(), values.end()));
-    } else {
-        uploaded = upload_levels_rgba8(*texture, std::move(expanded.data));
-    }
-    if (!uploaded) {
-        return uploaded.error();
+    const Image expanded = image.converted_to(floats ? PixelFormat::RGBAF : PixelFormat::RGBA8);
+    if (Status s = upload_levels(*texture, expanded); !s) {
+        return s.error();
     }
     return textures_.make(*std::move(texture));
 }

@@ -20,9 +20,9 @@ enum class Load : uint8_t {
 };
 
 struct PassDesc {
-    std::string_view label;              ///< a group in graphics debuggers
+    std::string_view label{};            ///< a group in graphics debuggers
     const Framebuffer* target = nullptr; ///< never null
-    std::optional<Rect> viewport;        ///< nullopt: the whole target; clears stay inside it
+    std::optional<Rect> viewport{};      ///< nullopt: the whole target; clears stay inside it
     std::array<Load, kMaxColorAttachments> colors{Load::Keep, Load::Keep, Load::Keep, Load::Keep};
     std::array<glm::vec4, kMaxColorAttachments> clear_colors{};
     Load depth = Load::Keep;

@@ -37,7 +37,7 @@ struct AttributeList {
 
 struct VertexArrayDesc {
     const Buffer* vertices = nullptr; ///< borrowed while the array lives
-    std::span<const AttributeDesc> attributes;
+    std::span<const AttributeDesc> attributes{};
     int stride = 0;                  ///< [bytes]
     const Buffer* indices = nullptr; ///< likewise; nullptr: not indexed
     IndexType index_type = IndexType::None;

@@ -4,8 +4,10 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cl::gles3 {
@@ -47,14 +49,21 @@ glm::mat4 face_clip_from_light(float range_m) noexcept {
 } // namespace
 
 float light_coverage(const LightItem& light, const CameraDesc& camera, glm::ivec2 frame_size) noexcept {
-    const float range_m = light.desc->range_m;
-    const float distance_m = glm::length(light.world_from_light.origin - camera.world_from_camera.origin);
+    const LightDesc& d = *light.desc;
+    // An omni's ball; of a spot, the disc where its cone ends.
+    const float angle_rad = glm::radians(d.spot_angle_deg);
+    const bool is_spot = d.type == LightType::Spot;
+    const float radius_m = is_spot ? d.range_m * std::sin(angle_rad) : d.range_m;
+    const float ahead_m = is_spot ? d.range_m * std::cos(angle_rad) : 0.0f;
+    const glm::vec3 center = light.world_from_light.xform({0.0f, 0.0f, -ahead_m});
+    const float depth_m = -camera.world_from_camera.inverse().xform(center).z;
     const glm::mat4 clip_from_view = projection_matrix(camera, frame_size);
+    const float mean_half_extent = 0.5f / clip_from_view[0][0] + 0.5f / clip_from_view[1][1];
     const bool perspective = clip_from_view[2][3] != 0.0f;
-    if (perspective && distance_m <= range_m) {
+    if (perspective && depth_m <= 0.0f) {
         return 1.0f;
     }
-    return std::min(1.0f, range_m * clip_from_view[1][1] / (perspective ? distance_m : 1.0f));
+    return std::min(1.0f, radius_m / (mean_half_extent * (perspective ? depth_m : 1.0f)));
 }
 
 Status LocalShadowPass::prepare_atlas(int size) {

@@ -32,8 +32,9 @@ const int kMode = 3;
 const int kMode = 0;
 #endif
 
-float to_half(float v) {
-    return unpackHalf2x16(packHalf2x16(vec2(v, 0.0))).x;
+/// Towards zero, as llvmpipe stores halves: Godot's pictures were made with that.
+vec3 truncated_to_half(vec3 v) {
+    return uintBitsToFloat(floatBitsToUint(v) & 0xFFFFE000u);
 }
 
 void main() {
@@ -42,6 +43,5 @@ void main() {
 #ifdef ADJUST
     encoded = clamp(adjust(encoded, brightness_contrast_saturation), 0.0, 1.0);
 #endif
-    vec3 half_precision = vec3(to_half(encoded.r), to_half(encoded.g), to_half(encoded.b));
-    out_color = vec4(floor(half_precision * 255.0) / 255.0, 1.0);
+    out_color = vec4(floor(truncated_to_half(encoded) * 255.0) / 255.0, 1.0);
 }
