@@ -30,6 +30,10 @@ constexpr int kMaxLoggedErrors = 16;
 /// Whose entry points the loader's global pointers hold. EGL's and OSMesa's differ.
 std::optional<DriverKind> loaded_entry_points;
 
+/// The context that GL calls go to. Mesa's EGL and OSMesa share one dispatch table but not their notion of what is
+/// current: unless one is released, it takes making its old context current again for done already.
+GLContext* current_context = nullptr;
+
 std::string gl_string(GLenum name) {
     const auto* text = reinterpret_cast<const char*>(glGetString(name));
     return text ? text : "";
@@ -56,7 +60,17 @@ Expected<DriverKind> driver_from_name(std::string_view name) {
                  fmt::format("expected a driver, egl, osmesa or window, found \"{}\"", name)};
 }
 
+GLContext::~GLContext() {
+    if (current_context == this) {
+        current_context = nullptr;
+    }
+}
+
 Status GLContext::make_current() {
+    if (current_context && current_context != this) {
+        current_context->release_current_raw();
+    }
+    current_context = this;
     if (Status s = make_current_raw(); !s) {
         return s;
     }

@@ -28,7 +28,7 @@ enum class DriverKind : uint8_t {
 /// A GL context, current on the thread that made it, and its debug output. It must outlive every GL object.
 class GLContext {
 public:
-    virtual ~GLContext() = default;
+    virtual ~GLContext();
     GLContext(const GLContext&) = delete;
     GLContext& operator=(const GLContext&) = delete;
 
@@ -54,6 +54,7 @@ protected:
     using Proc = void (*)();
     GLContext() = default;
     [[nodiscard]] virtual Status make_current_raw() = 0;
+    virtual void release_current_raw() = 0;
     [[nodiscard]] virtual Proc proc_address(const char* name) const = 0;
 
 private:

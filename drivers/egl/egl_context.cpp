@@ -37,7 +37,7 @@ public:
         : display_(display), surface_(surface), context_(context) {}
     ~EglContext() override {
         if (eglGetCurrentContext() == context_) {
-            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+            release_current();
         }
         eglDestroyContext(display_, context_);
         if (surface_ != EGL_NO_SURFACE) {
@@ -55,9 +55,11 @@ protected:
         }
         return {};
     }
+    void release_current_raw() override { release_current(); }
     Proc proc_address(const char* name) const override { return eglGetProcAddress(name); }
 
 private:
+    void release_current() { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
     EGLDisplay display_;
     EGLSurface surface_; ///< EGL_NO_SURFACE: surfaceless
     EGLContext context_;

@@ -59,6 +59,7 @@ protected:
         }
         return {};
     }
+    void release_current_raw() override { glfwMakeContextCurrent(nullptr); }
     Proc proc_address(const char* name) const override { return glfwGetProcAddress(name); }
 
 private:

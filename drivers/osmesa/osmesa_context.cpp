@@ -63,7 +63,7 @@ public:
     OsmesaContext(const Library& library, OSMesaContext context) : library_(library), context_(context) {}
     ~OsmesaContext() override {
         if (library_.get_current_context() == context_) {
-            library_.make_current(nullptr, nullptr, 0, 0, 0);
+            release_current();
         }
         library_.destroy_context(context_);
     }
@@ -77,9 +77,11 @@ protected:
         }
         return {};
     }
+    void release_current_raw() override { release_current(); }
     Proc proc_address(const char* name) const override { return library_.get_proc_address(name); }
 
 private:
+    void release_current() { library_.make_current(nullptr, nullptr, 0, 0, 0); }
     static constexpr int kEdge = 4;
     Library library_;
     OSMesaContext context_;
