@@ -1,0 +1,91 @@
+#include "servers/gi/light_march.h"
+
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+namespace {
+
+using namespace cl;
+
+TEST_SUITE("servers/gi/light_march") {
+    TEST_CASE("the remainder is fmod's, to the last bit") {
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> length(0.0f, 2000.0f);
+        std::uniform_real_distribution<float> step(1.0f, 1.7320508f);
+        for (int i = 0; i < 100000; ++i) {
+            const float b = i % 7 == 0 ? 1.0f : step(random);
+            const float a = i % 5 == 0 ? b * float(i % 300) : length(random);
+            REQUIRE(gi::remainder_of(a, b) == std::fmod(a, b));
+        }
+    }
+
+    TEST_CASE("a step of advance_of() moves by one voxel on the dominant axis and by no more on the others") {
+        std::mt19937 random(6);
+        std::normal_distribution<float> n;
+        for (int i = 0; i < 1000; ++i) {
+            const glm::vec3 d = glm::normalize(glm::vec3(n(random), n(random), n(random)));
+            const glm::vec3 moved = glm::abs(d * gi::advance_of(d));
+            const float most = std::max(moved.x, std::max(moved.y, moved.z));
+            CHECK(most == doctest::Approx(1.0f));
+        }
+        CHECK(gi::advance_of({0, 0, -1}) == 1.0f);
+        CHECK(gi::advance_of({0, 1, 0}) == 1.0f);
+        CHECK(gi::advance_of(glm::vec3(-0.6f, 0.0f, 0.6f)) == 1.0f / 0.6f);
+    }
+
+    TEST_CASE("a start outside the grid moves in to the margin planes, one inside stays") {
+        const glm::ivec3 dims(64, 32, 64);
+        const glm::vec3 down(0, -1, 0);
+        CHECK(gi::clipped_start(dims, down, {5, 100, 5}, {5, 3, 5}) == glm::vec3(5, 33, 5));
+        CHECK(gi::clipped_start(dims, down, {5, 30, 5}, {5, 3, 5}) == glm::vec3(5, 30, 5));
+        CHECK(gi::clipped_start(dims, {1, 0, 0}, {-40, 2, 2}, {10, 2, 2}) == glm::vec3(-1, 2, 2));
+        // A diagonal from far away: no axis is left beyond its plane.
+        const glm::vec3 from(500, 400, -300);
+        const glm::vec3 to(10.5f, 10.5f, 10.5f);
+        const glm::vec3 start = gi::clipped_start(dims, glm::normalize(to - from), from, to);
+        CHECK(start.x <= 65.01f);
+        CHECK(start.y <= 33.01f);
+        CHECK(start.z >= -1.01f);
+        CHECK(glm::length(glm::cross(glm::normalize(start - to), glm::normalize(from - to))) < 1e-4f);
+    }
+
+    TEST_CASE("a march reaches a leaf only if it is the first it meets") {
+        gi::LeafBitmap leaves(glm::ivec3(64));
+        leaves.add(20, 5, 5);
+        leaves.add(30, 5, 5);
+        const gi::March along_x{{0.5f, 5.5f, 5.5f}, {1, 0, 0}, 30.0f, 1.0f};
+        CHECK(gi::reaches(leaves, along_x, {20, 5, 5}));
+        CHECK_FALSE(gi::reaches(leaves, along_x, {30, 5, 5}));
+        const gi::March beside{{0.5f, 6.5f, 5.5f}, {1, 0, 0}, 30.0f, 1.0f};
+        CHECK_FALSE(gi::reaches(leaves, beside, {20, 5, 5}));
+        const gi::March backward{{63.5f, 5.5f, 5.5f}, {-1, 0, 0}, 33.0f, 1.0f};
+        CHECK(gi::reaches(leaves, backward, {30, 5, 5}));
+        const gi::March too_short{{0.5f, 5.5f, 5.5f}, {1, 0, 0}, 15.0f, 1.0f};
+        CHECK_FALSE(gi::reaches(leaves, too_short, {20, 5, 5}));
+    }
+
+    TEST_CASE("the bitmap holds what was added, and nothing outside the grid") {
+        const glm::ivec3 dims(8, 2, 16);
+        gi::LeafBitmap leaves(dims);
+        std::mt19937 random(8);
+        std::vector<bool> expected(size_t(8 * 2 * 16));
+        for (int i = 0; i < 60; ++i) {
+            const uint32_t x = uint32_t(random() % 8), y = uint32_t(random() % 2), z = uint32_t(random() % 16);
+            leaves.add(x, y, z);
+            expected[(z * 2 + y) * 8 + x] = true;
+        }
+        for (int z = -2; z < 19; ++z) {
+            for (int y = -2; y < 5; ++y) {
+                for (int x = -2; x < 11; ++x) {
+                    const bool inside = x >= 0 && x < 8 && y >= 0 && y < 2 && z >= 0 && z < 16;
+                    CHECK(leaves.contains(x, y, z) == (inside && expected[size_t((z * 2 + y) * 8 + x)]));
+                }
+            }
+        }
+    }
+}
+
+} // namespace
