@@ -231,6 +231,12 @@ LiveCounts DummyRasterizer::live() const noexcept {
     return {textures_.size(), meshes_.size(), skies_.size(), volumes_.size(), targets_.size()};
 }
 
+std::vector<RID> DummyRasterizer::volumes() {
+    std::vector<RID> rids;
+    volumes_.for_each([&rids](RID rid, const Volume&) { rids.push_back(rid); });
+    return rids;
+}
+
 std::span<const uint8_t> DummyRasterizer::volume_texels(RID rid, int mip) const noexcept {
     const Volume* volume = volumes_.get(rid);
     return volume && mip >= 0 && mip < volume->desc.mip_count ? volume->mips[static_cast<size_t>(mip)]

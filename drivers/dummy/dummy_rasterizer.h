@@ -79,6 +79,8 @@ public:
     [[nodiscard]] size_t count(CallKind kind) const noexcept;
     void forget_calls() { calls_.clear(); }
     [[nodiscard]] LiveCounts live() const noexcept;
+    /// The GI volumes that are alive, oldest slot first.
+    [[nodiscard]] std::vector<RID> volumes();
     /// Texels of one mip of a volume, x fastest, then y, then z; empty if there is no such volume or mip.
     [[nodiscard]] std::span<const uint8_t> volume_texels(RID volume, int mip) const noexcept;
     [[nodiscard]] const GIVolumeDesc* volume_desc(RID volume) const noexcept;

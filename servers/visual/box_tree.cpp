@@ -8,6 +8,13 @@
 #include <glm/common.hpp>
 
 namespace cl {
+namespace {
+
+// How much a change wears the tree: it doubles, or every box moves four times, before it is built anew.
+constexpr size_t kInsertWear = 4, kRemoveWear = 4, kMoveWear = 1;
+constexpr size_t kWornOut = size_t{1} << 60; ///< built anew at once
+
+} // namespace
 
 bool BoxTree::Bounds::touches(const Bounds& o) const noexcept {
     return least.x <= o.most.x && o.least.x <= most.x && least.y <= o.most.y && o.least.y <= most.y &&
@@ -16,6 +23,11 @@ bool BoxTree::Bounds::touches(const Bounds& o) const noexcept {
 
 BoxTree::Bounds BoxTree::Bounds::merged(const Bounds& o) const noexcept {
     return {glm::min(least, o.least), glm::max(most, o.most)};
+}
+
+float BoxTree::Bounds::half_area() const noexcept {
+    const glm::vec3 size = empty() ? glm::vec3(0.0f) : most - least;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
 BoxTree::Bounds BoxTree::bounds_of(const AABB& box) noexcept {
@@ -40,36 +52,70 @@ BoxTree::Entry BoxTree::insert(const AABB& box, RID item) {
         free_.pop_back();
     }
     entries_[entry] = Item{bounds_of(box), item, kNone, true};
-    loose_.push_back(entry);
+    const size_t depth = hang(entry);
+    wear_ += depth < kMaxDepth ? kInsertWear : kWornOut;
     rebuild_if_worn();
     return entry;
+}
+
+/// Walks down to the leaf that the item enlarges least and puts it beside that leaf's own. @return its depth
+size_t BoxTree::hang(uint32_t item) {
+    if (nodes_.empty()) {
+        nodes_.emplace_back();
+        put(0, item);
+        return 0;
+    }
+    const Bounds& bounds = entries_[item].bounds;
+    const auto growth = [this, &bounds](uint32_t node) {
+        return nodes_[node].bounds.merged(bounds).half_area() - nodes_[node].bounds.half_area();
+    };
+    uint32_t node = 0;
+    size_t depth = 0;
+    for (; nodes_[node].child != kNone; ++depth) {
+        const uint32_t child = nodes_[node].child;
+        nodes_[node].bounds = nodes_[node].bounds.merged(bounds);
+        node = growth(child) <= growth(child + 1) ? child : child + 1;
+    }
+    const uint32_t neighbour = nodes_[node].item;
+    if (neighbour == kNone) {
+        put(node, item);
+        return depth;
+    }
+    const uint32_t child = static_cast<uint32_t>(nodes_.size());
+    nodes_.resize(nodes_.size() + 2);
+    nodes_[child].parent = nodes_[child + 1].parent = node;
+    nodes_[node].child = child;
+    nodes_[node].item = kNone;
+    nodes_[node].bounds = nodes_[node].bounds.merged(bounds);
+    put(child, neighbour);
+    put(child + 1, item);
+    return depth + 1;
+}
+
+void BoxTree::put(uint32_t node, uint32_t item) noexcept {
+    nodes_[node].item = item;
+    nodes_[node].bounds = entries_[item].bounds;
+    entries_[item].leaf = node;
 }
 
 void BoxTree::move(Entry entry, const AABB& box) {
     CL_ASSERT(entry < entries_.size() && entries_[entry].live, "move() of an entry that is not in the tree");
     Item& item = entries_[entry];
     item.bounds = bounds_of(box);
-    if (item.leaf == kNone) {
-        return;
-    }
     nodes_[item.leaf].bounds = item.bounds;
     refit(nodes_[item.leaf].parent);
-    ++wear_;
+    wear_ += kMoveWear;
     rebuild_if_worn();
 }
 
 void BoxTree::remove(Entry entry) {
     CL_ASSERT(entry < entries_.size() && entries_[entry].live, "remove() of an entry that is not in the tree");
     Item& item = entries_[entry];
-    if (item.leaf == kNone) {
-        loose_.erase(std::find(loose_.begin(), loose_.end(), entry));
-    } else {
-        Node& leaf = nodes_[item.leaf];
-        leaf.item = kNone;
-        leaf.bounds = {};
-        refit(leaf.parent);
-        wear_ += 4; // a hole costs every later query; a moved box only fits less well
-    }
+    Node& leaf = nodes_[item.leaf];
+    leaf.item = kNone;
+    leaf.bounds = {};
+    refit(leaf.parent);
+    wear_ += kRemoveWear;
     item = {};
     free_.push_back(entry);
     rebuild_if_worn();
@@ -88,7 +134,7 @@ void BoxTree::refit(uint32_t node) noexcept {
 }
 
 void BoxTree::rebuild_if_worn() {
-    if (loose_.size() > 32 + nodes_.size() / 16 || wear_ > 64 + 2 * nodes_.size()) {
+    if (wear_ > 64 + 2 * built_nodes_) { // that is four times the items there were
         rebuild();
     }
 }
@@ -102,14 +148,13 @@ void BoxTree::rebuild() {
         }
     }
     nodes_.clear();
-    loose_.clear();
     wear_ = 0;
-    if (live.empty()) {
-        return;
+    if (!live.empty()) {
+        nodes_.reserve(2 * live.size());
+        nodes_.emplace_back();
+        split(live, 0, live.size(), 0);
     }
-    nodes_.reserve(2 * live.size());
-    nodes_.emplace_back();
-    split(live, 0, live.size(), 0);
+    built_nodes_ = nodes_.size();
 }
 
 /// Fills `node` with items[begin, end): halves them at the median of the axis along which centres spread most.
@@ -126,8 +171,7 @@ void BoxTree::split(std::vector<uint32_t>& items, size_t begin, size_t end, uint
     }
     nodes_[node].bounds = all;
     if (end - begin == 1) {
-        nodes_[node].item = items[begin];
-        entries_[items[begin]].leaf = node;
+        put(node, items[begin]);
         return;
     }
     const glm::vec3 spread = centers.most - centers.least;

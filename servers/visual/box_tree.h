@@ -15,9 +15,9 @@ namespace cl {
 
 /// Boxes of a scenario, found by overlap in logarithmic time: a binary tree of bounding boxes.
 ///
-/// A moved box only refits its ancestors; new ones wait in a short loose list. The tree is built anew (median
-/// split, so its depth stays logarithmic) when a share of it is loose, gone or moved, which keeps every change at
-/// O(log n) amortised without the rotations of a self-balancing tree.
+/// A new box splits the leaf that it enlarges least; a moved one only refits its ancestors. The tree is built anew
+/// (median split, so its depth is logarithmic again) when a share of it was added, removed or moved, which keeps
+/// every change at O(log n) amortised without the rotations of a self-balancing tree.
 /// A box that is not finite is kept but never found, so that it cannot spoil its neighbours.
 class BoxTree {
 public:
@@ -46,6 +46,18 @@ public:
     void all(F&& found) const {
         visit([](const Bounds& b) { return !b.empty(); }, found);
     }
+    /// How many boxes, inner ones too, overlapping() compares with `box`: the cost of a query.
+    [[nodiscard]] size_t boxes_looked_at(const AABB& box) const {
+        const Bounds wanted = bounds_of(box);
+        size_t count = 0;
+        const auto counting = [&wanted, &count](const Bounds& b) {
+            ++count;
+            return b.touches(wanted);
+        };
+        const auto ignore = [](RID) {};
+        visit(counting, ignore);
+        return count;
+    }
 
 private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -56,12 +68,13 @@ private:
         [[nodiscard]] bool empty() const noexcept { return least.x > most.x; }
         [[nodiscard]] bool touches(const Bounds& o) const noexcept;
         [[nodiscard]] Bounds merged(const Bounds& o) const noexcept;
+        [[nodiscard]] float half_area() const noexcept; ///< [m^2], 0 if empty
         friend bool operator==(const Bounds&, const Bounds&) = default;
     };
     struct Item {
         Bounds bounds;
         RID rid;
-        uint32_t leaf = kNone; ///< node that holds it; kNone: in loose_
+        uint32_t leaf = kNone; ///< node that holds it
         bool live = false;
     };
     struct Node {
@@ -70,21 +83,20 @@ private:
         uint32_t child = kNone; ///< two children at child and child + 1; kNone: a leaf
         uint32_t item = kNone;  ///< of a leaf; kNone: it was removed
     };
+    /// Traversal keeps at most one node a level on its stack, and one more.
+    static constexpr size_t kMaxDepth = 60;
     static Bounds bounds_of(const AABB& box) noexcept;
     void refit(uint32_t node) noexcept;
+    size_t hang(uint32_t item);
+    void put(uint32_t node, uint32_t item) noexcept;
     void rebuild_if_worn();
     void rebuild();
     void split(std::vector<uint32_t>& items, size_t begin, size_t end, uint32_t node);
 
-    /// Depth-first through the nodes that `passes` accepts. A median split of 2^24 items is 24 deep.
+    /// Depth-first through the nodes that `passes` accepts.
     template <typename Pass, typename F>
-    void visit(Pass passes, F& found) const {
-        for (uint32_t i : loose_) {
-            if (passes(entries_[i].bounds)) {
-                found(entries_[i].rid);
-            }
-        }
-        std::array<uint32_t, 64> stack{};
+    void visit(const Pass& passes, F&& found) const {
+        std::array<uint32_t, kMaxDepth + 2> stack{};
         size_t depth = 0;
         if (!nodes_.empty()) {
             stack[depth++] = 0;
@@ -105,9 +117,9 @@ private:
 
     std::vector<Item> entries_;
     std::vector<uint32_t> free_;
-    std::vector<uint32_t> loose_;
     std::vector<Node> nodes_; ///< node 0 is the root
-    size_t wear_ = 0;         ///< removals and moves since the tree was built
+    size_t wear_ = 0;         ///< weighted changes since the tree was built
+    size_t built_nodes_ = 0;  ///< when it was built
 };
 
 } // namespace cl
