@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
+#include <chrono>
 #include <functional>
 #include <random>
-#include <string>
+#include <thread>
 #include <vector>
 
 using namespace cl;
@@ -42,7 +42,17 @@ struct ProbeFixture : ServerFixture {
             all.insert(all.end(), level.begin(), level.end());
         }
     }
-    /// The same after everything came to rest.
+    /// Draws as long as the worker takes.
+    void draw_until_settled(const std::function<void()>& after_each = [] {}) {
+        constexpr int kMaxFrames = 10000;
+        for (int frame = 0; frame < kMaxFrames && !server.is_settled(); ++frame) {
+            draw();
+            after_each();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1)); // lets it work where there is one core
+        }
+        REQUIRE(server.is_settled());
+    }
+    /// shown() after everything came to rest.
     std::vector<uint8_t> texels() {
         server.settle();
         REQUIRE(server.is_settled());
@@ -132,13 +142,13 @@ struct History {
         REQUIRE(server.light_set(light.light, light.desc));
     }
 
-    /// A world that never saw anything but the final state.
-    std::vector<uint8_t> fresh_texels() const {
+    /// A world that never saw anything but the final state of these lights.
+    std::vector<uint8_t> fresh_texels(const std::vector<LightState>& final_lights) const {
         ProbeFixture fresh;
         REQUIRE(fresh.server.gi_probe_set_propagation(fresh.base, propagation));
         REQUIRE(fresh.server.gi_probe_set_dynamic_range(fresh.base, dynamic_range));
         REQUIRE(fresh.server.instance_set_transform(fresh.probe, probe_place));
-        for (const LightState& light : lights) {
+        for (const LightState& light : final_lights) {
             REQUIRE(fresh.server.instance_set_visible(fresh.place_light(light.desc, light.place), light.visible));
         }
         return fresh.texels();
@@ -164,18 +174,13 @@ TEST_SUITE("servers/visual/probe_driver") {
             }
             const std::vector<uint8_t> texels = history.world.texels();
             REQUIRE(texels.size() == 4u * (64 * 8 * 8 + 32 * 4 * 4 + 16 * 2 * 2 + 8));
-            REQUIRE(texels == history.fresh_texels());
-            // The glowing cell alone lights some; lamps must have done more in many a history.
-            int bright = 0;
-            for (size_t i = 0; i < texels.size(); i += 4) {
-                bright += texels[i + 1] > 8 ? 1 : 0;
-            }
-            lit += bright > 20 ? 1 : 0;
+            REQUIRE(texels == history.fresh_texels(history.lights));
+            lit += texels != history.fresh_texels({}) ? 1 : 0;
         }
-        CHECK(lit > 100);
+        CHECK(lit > 100); // in most histories lamps did reach the probe
     }
 
-    TEST_CASE("draw() shows a change of light two frames later and then rests") {
+    TEST_CASE("drawing alone brings a change of light to the volume, and nothing is done when it is there") {
         ProbeFixture f;
         f.place_light(lamp());
         f.texels();
@@ -185,11 +190,11 @@ TEST_SUITE("servers/visual/probe_driver") {
         CHECK(f.dummy->count(CallKind::VolumeUpload) == 0);
         f.place_light(lamp(), at(3.0f, 0.0f, 0.0f));
         CHECK(!f.server.is_settled());
-        for (int frame = 0; frame < 1000 && !f.server.is_settled(); ++frame) {
-            f.draw(); // the worker takes as long as it takes
-        }
-        CHECK(f.server.is_settled());
+        f.draw_until_settled();
         CHECK(f.dummy->count(CallKind::VolumeUpload) > 0);
+        f.dummy->forget_calls();
+        f.draw();
+        CHECK(f.dummy->count(CallKind::VolumeUpload) == 0);
     }
 
     TEST_CASE("a volume is never seen half new: between two draws its bytes are the old or the new ones") {
@@ -201,10 +206,7 @@ TEST_SUITE("servers/visual/probe_driver") {
         bright.energy = 3.0f;
         REQUIRE(f.server.light_set(light, bright));
         std::vector<std::vector<uint8_t>> seen;
-        for (int frame = 0; frame < 1000 && !f.server.is_settled(); ++frame) {
-            f.draw();
-            seen.push_back(f.shown());
-        }
+        f.draw_until_settled([&] { seen.push_back(f.shown()); });
         const std::vector<uint8_t> after = f.texels();
         CHECK(before != after);
         for (const std::vector<uint8_t>& texels : seen) {
