@@ -17,6 +17,7 @@ std::string text(glm::ivec2 v) { return fmt::format("{}x{}", v.x, v.y); }
 std::string text(glm::ivec3 v) { return fmt::format("{}x{}x{}", v.x, v.y, v.z); }
 
 bool is_positive(glm::ivec2 v) { return v.x > 0 && v.y > 0; }
+bool is_power_of_two(int v) { return v > 0 && std::has_single_bit(static_cast<unsigned>(v)); }
 
 /// Volume edges beyond this no GLES 3.0 driver must offer (GL_MAX_3D_TEXTURE_SIZE is at least 256).
 constexpr int kMaxVolumeEdge = 2048;
