@@ -51,6 +51,15 @@ void place_tile(DirectionalSplit& split, int index, int count) noexcept {
     split.tile_size = tile.size;
 }
 
+/// How much wider than the view Godot's fit is: in perspective it takes the horizontal field of view for the
+/// vertical one, and then widens that by the aspect ratio again. Found from the size and place of shadow
+/// texels in its pictures (orthogonal, 2 and 4 splits), which this makes equal. In upright pictures its fit
+/// is too narrow and loses shadows: there, departed from.
+float fit_widening(const CameraDesc& camera, glm::ivec2 frame_size) noexcept {
+    const float aspect = static_cast<float>(frame_size.x) / static_cast<float>(std::max(frame_size.y, 1));
+    return camera.projection == Projection::Perspective ? std::max(aspect, 1.0f) : 1.0f;
+}
+
 struct Sphere {
     glm::vec3 center{0.0f};
     float radius = 0.0f;
@@ -68,23 +77,22 @@ Sphere sphere_around(const std::array<glm::vec3, 8>& points) noexcept {
 }
 
 /// Corners are given in light space.
-void fit_stable(DirectionalSplit& split, const Sphere& sphere, glm::vec2 texels) noexcept {
-    const glm::vec2 radius = sphere.radius * texels / glm::max(texels - 2.0f, glm::vec2(1.0f));
-    const glm::vec2 texel_m = 2.0f * radius / texels;
+void fit_stable(DirectionalSplit& split, const Sphere& sphere, float texels) noexcept {
+    const float radius = sphere.radius * texels / std::max(texels - 2.0f, 1.0f);
+    const float texel_m = 2.0f * radius / texels;
     const glm::vec2 center = glm::floor(glm::vec2(sphere.center) / texel_m) * texel_m;
     split.low_m = glm::vec3(center - radius, sphere.center.z - sphere.radius);
     split.high_m = glm::vec3(center + radius, sphere.center.z + sphere.radius);
 }
 
-void fit_optimized(DirectionalSplit& split, const std::array<glm::vec3, 8>& corners,
-                   glm::vec2 texels) noexcept {
+void fit_optimized(DirectionalSplit& split, const std::array<glm::vec3, 8>& corners, float texels) noexcept {
     glm::vec3 low = corners[0];
     glm::vec3 high = corners[0];
     for (const glm::vec3& c : corners) {
         low = glm::min(low, c);
         high = glm::max(high, c);
     }
-    const glm::vec3 margin(glm::vec2(high - low) / glm::max(texels - 2.0f, glm::vec2(1.0f)), 0.0f);
+    const glm::vec3 margin(glm::vec2(high - low) / std::max(texels - 2.0f, 1.0f), 0.0f);
     split.low_m = low - margin;
     split.high_m = high + margin;
 }
@@ -130,6 +138,7 @@ DirectionalShadow fit_directional_shadow(const LightDesc& light, const Transform
     out.count = range.count;
     const AABB casters = transformed(out.light_from_world, casters_bounds);
     const Transform light_from_view = out.light_from_world * camera.world_from_camera;
+    const float widening = fit_widening(camera, frame_size);
     float first_radius = 1.0f;
     for (int i = 0; i < range.count; ++i) {
         DirectionalSplit& split = out.splits[static_cast<size_t>(i)];
@@ -138,10 +147,11 @@ DirectionalShadow fit_directional_shadow(const LightDesc& light, const Transform
         place_tile(split, i, range.count);
         std::array<glm::vec3, 8> corners = view_corners(camera, frame_size, split.begin_m, split.end_m);
         for (glm::vec3& c : corners) {
-            c = light_from_view.xform(c);
+            c = light_from_view.xform(c * glm::vec3(widening, widening, 1.0f));
         }
         const Sphere sphere = sphere_around(corners);
-        const glm::vec2 texels = glm::vec2(area_texels) * split.tile_size;
+        // A tile that is not square is measured by its height on both axes.
+        const float texels = static_cast<float>(area_texels.y) * split.tile_size.y;
         if (light.directional_depth_range == DirectionalDepthRange::Stable) {
             fit_stable(split, sphere, texels);
         } else {

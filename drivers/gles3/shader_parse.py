@@ -59,7 +59,9 @@ class Reader:
         self.expand(path, is_program=True)
 
     def label(self, path):
-        return path.resolve().relative_to(self.root.resolve()).as_posix()
+        """From the repository's root, as messages name it; shaders that lie elsewhere keep their whole path."""
+        full, root = path.resolve(), self.root.resolve()
+        return full.relative_to(root).as_posix() if full.is_relative_to(root) else full.as_posix()
 
     def number_of(self, path):
         label = self.label(path)

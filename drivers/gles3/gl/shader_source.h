@@ -45,14 +45,14 @@ struct BlockDecl {
 
 /// One program's text, without #version and variant defines.
 struct ShaderSource {
-    std::string_view name;
-    std::string_view vertex, fragment;
-    std::span<const std::string_view> files; ///< by the numbers in #line directives; paths from the root
-    std::span<const UniformDecl> uniforms;
-    std::span<const SamplerDecl> samplers;
-    std::span<const BlockDecl> blocks;
-    std::span<const std::string_view> flags; ///< defines of the variants; flag i is bit i of a key
-    std::span<const uint32_t> validated;     ///< the variants that the build has checked
+    std::string_view name{};
+    std::string_view vertex{}, fragment{};
+    std::span<const std::string_view> files{}; ///< by the numbers in #line directives; paths from the root
+    std::span<const UniformDecl> uniforms{};
+    std::span<const SamplerDecl> samplers{};
+    std::span<const BlockDecl> blocks{};
+    std::span<const std::string_view> flags{}; ///< defines of the variants; flag i is bit i of a key
+    std::span<const uint32_t> validated{};     ///< the variants that the build has checked
 };
 
 } // namespace cl::gles3::gl
