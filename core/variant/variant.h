@@ -75,6 +75,10 @@ public:
     /// nullptr if there is no such key.
     [[nodiscard]] const Variant* find(const Variant& key) const noexcept;
     [[nodiscard]] const Variant* find(std::string_view key) const noexcept;
+    [[nodiscard]] const Variant* find(const char* key) const noexcept { return find(std::string_view(key)); }
+    [[nodiscard]] const Variant* find(const std::string& key) const noexcept {
+        return find(std::string_view(key));
+    }
     [[nodiscard]] size_t size() const noexcept;
     /// The same keys with equal values, in any order.
     friend bool operator==(const Dictionary&, const Dictionary&);
