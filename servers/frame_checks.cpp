@@ -1,17 +1,18 @@
 // The part of RasterizerChecked that looks at a Frame before it is drawn.
 #include "servers/rasterizer_checked.h"
-
 #include "servers/visual/texture_storage.h"
+
+#include <fmt/format.h>
 
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace cl {
 namespace {
 
-Error wrong(std::string message) { return {ErrorCode::InvalidArgument, "draw: " + std::move(message), {}}; }
+Error wrong(std::string message) {
+    return {ErrorCode::InvalidArgument, "draw: " + std::move(message), {}};
+}
 
 } // namespace
 
@@ -20,8 +21,8 @@ Status RasterizerChecked::check_frame(const Frame& frame) const {
         return wrong(fmt::format("expected a size above 0, found {}x{}", frame.size.x, frame.size.y));
     }
     if (frame.shadow_atlas_size <= 0 || frame.directional_shadow_size <= 0) {
-        return wrong(fmt::format("expected shadow map sizes above 0, found {} and {}", frame.shadow_atlas_size,
-                                 frame.directional_shadow_size));
+        return wrong(fmt::format("expected shadow map sizes above 0, found {} and {}",
+                                 frame.shadow_atlas_size, frame.directional_shadow_size));
     }
     if (frame.has_environment && frame.environment.sky && !find(frame.environment.sky, Kind::Sky)) {
         return wrong("expected a live sky or the null RID in the environment");
@@ -87,8 +88,8 @@ Status RasterizerChecked::check_item(const Frame& frame, const DrawItem& item) c
         return wrong("expected a first probe wherever there is a second");
     }
     if (item.omni_count > item.omnis.size() || item.spot_count > item.spots.size()) {
-        return wrong(fmt::format("expected at most {} omni and spot lights, found {} and {}", item.omnis.size(),
-                                 item.omni_count, item.spot_count));
+        return wrong(fmt::format("expected at most {} omni and spot lights, found {} and {}",
+                                 item.omnis.size(), item.omni_count, item.spot_count));
     }
     const auto check = [&frame](std::span<const uint16_t> indices, LightType type) -> Status {
         for (uint16_t index : indices) {
@@ -131,8 +132,8 @@ Status RasterizerChecked::check_probe(const GIProbeShading& probe) const {
     }
     if (probe.size != thing->volume.size) {
         return wrong(fmt::format("expected the probe to have its volume's size {}x{}x{}, found {}x{}x{}",
-                                 thing->volume.size.x, thing->volume.size.y, thing->volume.size.z, probe.size.x,
-                                 probe.size.y, probe.size.z));
+                                 thing->volume.size.x, thing->volume.size.y, thing->volume.size.z,
+                                 probe.size.x, probe.size.y, probe.size.z));
     }
     return {};
 }

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "servers/mesh_surface.h"
+#include "servers/render_types.h"
+
 #include "core/expected.h"
 #include "core/image.h"
 #include "core/rid.h"
-#include "servers/mesh_surface.h"
-#include "servers/render_types.h"
 
 #include <array>
 #include <cstdint>
@@ -14,14 +15,15 @@
 
 namespace cl {
 
-// What a backend must do, and all that the VisualServer knows of one. It makes sense without opening drivers/.
-// The server owns everything with a meaning (instances, lights, materials, cameras, probes' state); a rasteriser
-// owns only what lives near the hardware (textures, vertex data, volumes, targets) and draws one Frame at a time.
+// What a backend must do, and all that the VisualServer knows of one. It makes sense without opening
+// drivers/. The server owns everything with a meaning (instances, lights, materials, cameras, probes' state);
+// a rasteriser owns only what lives near the hardware (textures, vertex data, volumes, targets) and draws one
+// Frame at a time.
 
 struct RasterizerInfo {
-    std::string driver;       ///< "osmesa", "egl", "window", "dummy"
-    std::string renderer;     ///< what the driver calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string api_version;  ///< "OpenGL ES 3.2 Mesa 22.3.6"
+    std::string driver;      ///< "osmesa", "egl", "window", "dummy"
+    std::string renderer;    ///< what the driver calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string api_version; ///< "OpenGL ES 3.2 Mesa 22.3.6"
 };
 
 enum class TextureColorSpace : uint8_t { Linear, Srgb };
@@ -44,13 +46,13 @@ struct DrawItem {
     int surface = 0;
     const MaterialDesc* material = nullptr; ///< never null; lives as long as the Frame
     Transform world_from_local;
-    bool mirrored = false;                  ///< negative determinant: front faces turn the other way
-    bool receives_baked_light = false;      ///< use_in_baked_light: GI biases apply (spec gi-shading section 2)
+    bool mirrored = false;             ///< negative determinant: front faces turn the other way
+    bool receives_baked_light = false; ///< use_in_baked_light: GI biases apply (spec gi-shading section 2)
     std::array<int16_t, 2> gi_probes{-1, -1}; ///< into Frame::gi_probes, first and second; -1 = none
     uint16_t omni_count = 0, spot_count = 0;
     std::array<uint16_t, 8> omnis{}, spots{}; ///< into Frame::lights
-    uint16_t directional_mask = 0xFFFFu;    ///< bit i: directional light i of the frame lights this item
-    float view_depth_m = 0.0f;              ///< of the instance's origin, for sorting
+    uint16_t directional_mask = 0xFFFFu;      ///< bit i: directional light i of the frame lights this item
+    float view_depth_m = 0.0f;                ///< of the instance's origin, for sorting
 };
 
 /// One surface in a shadow map.
@@ -66,9 +68,9 @@ struct CasterItem {
 };
 
 struct LightItem {
-    RID key;                     ///< the light's instance: stable between frames, for caches
+    RID key; ///< the light's instance: stable between frames, for caches
     const LightDesc* desc = nullptr;
-    Transform world_from_light;  ///< orthonormal
+    Transform world_from_light;          ///< orthonormal
     std::span<const CasterItem> casters; ///< empty unless desc->shadow
     uint64_t casters_version = 0; ///< equal to last frame's: the shadow map may be kept (omni and spot)
 };
@@ -80,7 +82,7 @@ struct Frame {
     glm::ivec2 size{0};
     CameraDesc camera;
     EnvironmentDesc environment;
-    bool has_environment = false;        ///< false: clear colour as background and ambient, no tone mapping
+    bool has_environment = false; ///< false: clear colour as background and ambient, no tone mapping
     Color clear_color{0.3f, 0.3f, 0.3f, 1.0f};
     std::span<const DrawItem> opaque;      ///< sorted for early depth rejection and few state changes
     std::span<const DrawItem> transparent; ///< sorted by priority, then back to front
@@ -90,7 +92,7 @@ struct Frame {
     std::span<const GIProbeShading> gi_probes;
     GIMode gi_mode = GIMode::Cones;
     Quality quality = Quality::High;
-    int shadow_filter = 1;                 ///< 0 nearest, 1 PCF5, 2 PCF13 (project setting)
+    int shadow_filter = 1; ///< 0 nearest, 1 PCF5, 2 PCF13 (project setting)
     int shadow_atlas_size = 4096, directional_shadow_size = 4096; ///< [texels] (project settings)
 };
 
@@ -110,17 +112,20 @@ public:
     virtual ~Rasterizer() = default;
     [[nodiscard]] virtual RasterizerInfo info() const = 0;
 
-    /// Uploads an image (8 bit or float). `space` says whether 8-bit texels are decoded from sRGB on sampling.
+    /// Uploads an image (8 bit or float). `space` says whether 8-bit texels are decoded from sRGB on
+    /// sampling.
     /// @return Unsupported if the size is beyond the driver's limit.
     virtual Expected<RID> texture_create(const Image& image, const TextureParams& params,
                                          TextureColorSpace space) = 0;
     /// Uploads a mesh's surfaces; each must pass validate_surface().
     virtual Expected<RID> mesh_create(std::span<const MeshSurface> surfaces) = 0;
-    /// Prepares a sky: panorama, irradiance and roughness-filtered radiance (spec scene-classes section 14.4).
+    /// Prepares a sky: panorama, irradiance and roughness-filtered radiance (spec scene-classes
+    /// section 14.4).
     virtual Expected<RID> sky_create(const SkyDesc& sky) = 0;
     /// RGBA8 3D texture with mips, all texels 0 (so that a probe without light yet is black, not undefined).
     virtual Expected<RID> gi_volume_create(const GIVolumeDesc& desc) = 0;
-    /// Replaces a box of one mip level. `rgba8`: size.x * size.y * size.z * 4 bytes, x fastest, then y, then z.
+    /// Replaces a box of one mip level. `rgba8`: size.x * size.y * size.z * 4 bytes, x fastest, then y, then
+    /// z.
     virtual Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                                     std::span<const uint8_t> rgba8) = 0;
     virtual Expected<RID> target_create(glm::ivec2 size) = 0;

@@ -1,23 +1,33 @@
 #include "servers/rasterizer_checked.h"
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-#include <glm/common.hpp>
-
 namespace cl {
 namespace {
 
-Error wrong(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
+Error wrong(std::string message) {
+    return {ErrorCode::InvalidArgument, std::move(message), {}};
+}
 
-std::string text(glm::ivec2 v) { return fmt::format("{}x{}", v.x, v.y); }
-std::string text(glm::ivec3 v) { return fmt::format("{}x{}x{}", v.x, v.y, v.z); }
+std::string text(glm::ivec2 v) {
+    return fmt::format("{}x{}", v.x, v.y);
+}
+std::string text(glm::ivec3 v) {
+    return fmt::format("{}x{}x{}", v.x, v.y, v.z);
+}
 
-bool is_positive(glm::ivec2 v) { return v.x > 0 && v.y > 0; }
-bool is_power_of_two(int v) { return v > 0 && std::has_single_bit(static_cast<unsigned>(v)); }
+bool is_positive(glm::ivec2 v) {
+    return v.x > 0 && v.y > 0;
+}
+bool is_power_of_two(int v) {
+    return v > 0 && std::has_single_bit(static_cast<unsigned>(v));
+}
 
 /// Volume edges beyond this no GLES 3.0 driver must offer (GL_MAX_3D_TEXTURE_SIZE is at least 256).
 constexpr int kMaxVolumeEdge = 2048;
@@ -83,7 +93,8 @@ Expected<RID> RasterizerChecked::gi_volume_create(const GIVolumeDesc& desc) {
     }
     const int full_chain = std::bit_width(static_cast<unsigned>(longest));
     if (desc.mip_count < 1 || desc.mip_count > full_chain) {
-        return wrong(fmt::format("gi_volume_create: expected 1 to {} mips, found {}", full_chain, desc.mip_count));
+        return wrong(
+            fmt::format("gi_volume_create: expected 1 to {} mips, found {}", full_chain, desc.mip_count));
     }
     return keep(backend_->gi_volume_create(desc), {Kind::Volume, 0, desc});
 }
@@ -95,13 +106,15 @@ Status RasterizerChecked::gi_volume_upload(RID volume, int mip, glm::ivec3 offse
         return wrong("gi_volume_upload: expected a live GI volume");
     }
     if (mip < 0 || mip >= thing->volume.mip_count) {
-        return wrong(fmt::format("gi_volume_upload: expected a mip below {}, found {}", thing->volume.mip_count, mip));
+        return wrong(
+            fmt::format("gi_volume_upload: expected a mip below {}, found {}", thing->volume.mip_count, mip));
     }
     const glm::ivec3 whole = glm::max(thing->volume.size >> mip, glm::ivec3(1));
     for (int axis = 0; axis < 3; ++axis) { // no sums: they could overflow
-        if (offset[axis] < 0 || size[axis] < 1 || size[axis] > whole[axis] || offset[axis] > whole[axis] - size[axis]) {
-            return wrong(fmt::format("gi_volume_upload: expected a box inside {}, found {} at {}", text(whole),
-                                     text(size), text(offset)));
+        if (offset[axis] < 0 || size[axis] < 1 || size[axis] > whole[axis] ||
+            offset[axis] > whole[axis] - size[axis]) {
+            return wrong(fmt::format("gi_volume_upload: expected a box inside {}, found {} at {}",
+                                     text(whole), text(size), text(offset)));
         }
     }
     const size_t bytes = size_t{4} * size_t(size.x) * size_t(size.y) * size_t(size.z);
@@ -113,7 +126,8 @@ Status RasterizerChecked::gi_volume_upload(RID volume, int mip, glm::ivec3 offse
 
 Expected<RID> RasterizerChecked::target_create(glm::ivec2 size) {
     if (!is_positive(size) || size.x > kMaxImageEdge || size.y > kMaxImageEdge) {
-        return wrong(fmt::format("target_create: expected a size of 1 to {}, found {}", kMaxImageEdge, text(size)));
+        return wrong(
+            fmt::format("target_create: expected a size of 1 to {}, found {}", kMaxImageEdge, text(size)));
     }
     return keep(backend_->target_create(size), {Kind::Target, 0, {}});
 }

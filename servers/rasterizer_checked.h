@@ -8,15 +8,16 @@
 
 namespace cl {
 
-/// Wraps a backend and checks every argument before it gets there, so that backends need not: sizes, mips, spans,
-/// RIDs of the right kind, indices of a Frame. What is wrong is answered with InvalidArgument
-/// "call: expected ..., found ..." and never reaches the backend.
+/// Wraps a backend and checks every argument before it gets there, so that backends need not: sizes, mips,
+/// spans, RIDs of the right kind, indices of a Frame. What is wrong is answered with InvalidArgument "call:
+/// expected ..., found ..." and never reaches the backend.
 class RasterizerChecked final : public Rasterizer {
 public:
     explicit RasterizerChecked(std::unique_ptr<Rasterizer> backend);
 
     [[nodiscard]] RasterizerInfo info() const override { return backend_->info(); }
-    Expected<RID> texture_create(const Image& image, const TextureParams& params, TextureColorSpace space) override;
+    Expected<RID> texture_create(const Image& image, const TextureParams& params,
+                                 TextureColorSpace space) override;
     Expected<RID> mesh_create(std::span<const MeshSurface> surfaces) override;
     Expected<RID> sky_create(const SkyDesc& sky) override;
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;

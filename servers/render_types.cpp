@@ -1,9 +1,9 @@
 #include "servers/render_types.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <cmath>
-
-#include <glm/trigonometric.hpp>
 
 namespace cl {
 namespace {

@@ -5,22 +5,22 @@
 #include "core/math/transform.h"
 #include "core/rid.h"
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 // Plain descriptions of what is drawn, shared by the scene, the server and every rasteriser. Colours are
 // sRGB-encoded as in scene files unless said otherwise; whoever shades linearises them.
 namespace cl {
 
-// --- materials (spec scene-classes section 15) -----------------------------------------------------------------
+// --- materials (spec scene-classes section 15) ---------------------------------------------------
 
 enum class TextureChannel : uint8_t { Red, Green, Blue, Alpha, Gray };
 enum class DiffuseMode : uint8_t { Burley, Lambert, LambertWrap, OrenNayar, Toon };
@@ -92,7 +92,7 @@ struct MaterialDesc {
     }
 };
 
-// --- lights (spec scene-classes sections 6 to 9) ----------------------------------------------------------------
+// --- lights (spec scene-classes sections 6 to 9) -------------------------------------------------
 
 enum class LightType : uint8_t { Directional, Omni, Spot };
 enum class LightBakeMode : uint8_t { Disabled, Indirect, All };
@@ -129,11 +129,12 @@ struct LightDesc {
     friend bool operator==(const LightDesc&, const LightDesc&) = default;
 };
 
-/// The box an omni or spot light can reach, in light space [m] (spec gi-update section 4); empty if directional.
-/// Departs from Godot for spots of 90 degrees and more, whose box it turns inside out: the whole ball here.
+/// The box an omni or spot light can reach, in light space [m] (spec gi-update section 4); empty if
+/// directional. Departs from Godot for spots of 90 degrees and more, whose box it turns inside out: the whole
+/// ball here.
 [[nodiscard]] AABB light_bounds(const LightDesc& light) noexcept;
 
-// --- camera (spec scene-classes section 5) ----------------------------------------------------------------------
+// --- camera (spec scene-classes section 5) -------------------------------------------------------
 
 enum class Projection : uint8_t { Perspective, Orthogonal, Frustum };
 enum class KeepAspect : uint8_t { Width, Height };
@@ -154,7 +155,7 @@ struct CameraDesc {
 /// Clip from view, GL conventions (z in -1..1). `size`: viewport [pixels].
 [[nodiscard]] glm::mat4 projection_matrix(const CameraDesc& camera, glm::ivec2 size) noexcept;
 
-// --- environment (spec scene-classes section 14) ----------------------------------------------------------------
+// --- environment (spec scene-classes section 14) -------------------------------------------------
 
 enum class BackgroundMode : uint8_t { ClearColor, Color, Sky, ColorSky, Canvas, Keep, CameraFeed };
 enum class ToneMapper : uint8_t { Linear, Reinhard, Filmic, Aces };
@@ -185,14 +186,15 @@ struct EnvironmentDesc {
     float brightness = 1.0f, contrast = 1.0f, saturation = 1.0f;
 };
 
-/// A sky as an equirectangular panorama: linear radiance, rgb, row 0 at the zenith, x as spec section 14.2 maps it.
+/// A sky as an equirectangular panorama: linear radiance, rgb, row 0 at the zenith, x as spec section 14.2
+/// maps it.
 struct SkyDesc {
-    glm::ivec2 size{0};           ///< [texels]
-    std::vector<float> radiance;  ///< size.x * size.y * 3
-    int radiance_map_size = 128;  ///< edge of the prefiltered map [texels]
+    glm::ivec2 size{0};          ///< [texels]
+    std::vector<float> radiance; ///< size.x * size.y * 3
+    int radiance_map_size = 128; ///< edge of the prefiltered map [texels]
 };
 
-// --- GI ---------------------------------------------------------------------------------------------------------
+// --- GI ------------------------------------------------------------------------------------------
 
 /// How indirect light is found. Auto: our best (until it exists it draws as Cones and says so).
 enum class GIMode : uint8_t { Off, Cones, Auto };
@@ -200,11 +202,11 @@ enum class Quality : uint8_t { Low, High };
 
 /// A probe's shading parameters, read live each frame (spec gi-shading section 2).
 struct GIProbeShading {
-    RID volume;                        ///< rasterizer GI volume; null until it was set up
-    Transform cells_from_world;        ///< [m] -> [cells]
-    glm::vec3 bounds_cells{0.0f};      ///< true size of the box [cells]
-    glm::ivec3 size{0};                ///< texture size [cells]
-    float multiplier = 1.0f;           ///< dynamic range * energy
+    RID volume;                   ///< rasterizer GI volume; null until it was set up
+    Transform cells_from_world;   ///< [m] -> [cells]
+    glm::vec3 bounds_cells{0.0f}; ///< true size of the box [cells]
+    glm::ivec3 size{0};           ///< texture size [cells]
+    float multiplier = 1.0f;      ///< dynamic range * energy
     float bias_cells = 1.5f;
     float normal_bias_m = 0.0f;
     bool blend_ambient = true;

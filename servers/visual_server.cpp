@@ -1,7 +1,8 @@
 #include "servers/visual_server.h"
 
-#include "core/io/log.h"
 #include "servers/visual_server_impl.h"
+
+#include "core/io/log.h"
 
 namespace cl {
 
@@ -10,10 +11,18 @@ VisualServer::VisualServer(std::unique_ptr<Rasterizer> rasterizer)
 
 VisualServer::~VisualServer() = default;
 
-void VisualServer::set_settings(const RenderSettings& settings) { impl_->settings = settings; }
-const RenderSettings& VisualServer::settings() const { return impl_->settings; }
-RasterizerInfo VisualServer::rasterizer_info() const { return impl_->rasterizer->info(); }
-Rasterizer& VisualServer::rasterizer() { return *impl_->rasterizer; }
+void VisualServer::set_settings(const RenderSettings& settings) {
+    impl_->settings = settings;
+}
+const RenderSettings& VisualServer::settings() const {
+    return impl_->settings;
+}
+RasterizerInfo VisualServer::rasterizer_info() const {
+    return impl_->rasterizer->info();
+}
+Rasterizer& VisualServer::rasterizer() {
+    return *impl_->rasterizer;
+}
 
 Status VisualServer::draw() {
     FirstError errors;
@@ -58,7 +67,8 @@ ServerStats VisualServer::stats() const {
     stats.relight_ms = impl_->probes.relight_ms();
     stats.upload_ms = impl_->probes.upload_ms();
     impl_->instances.for_each([&stats](RID, const Instance& instance) {
-        const bool light = instance.kind == InstanceKind::DirectionalLight || instance.kind == InstanceKind::LocalLight;
+        const bool light =
+            instance.kind == InstanceKind::DirectionalLight || instance.kind == InstanceKind::LocalLight;
         stats.lights += instance.scenario && light && instance.visible ? 1 : 0;
         stats.instances += instance.scenario && instance.kind == InstanceKind::Mesh ? 1 : 0;
     });
@@ -81,8 +91,9 @@ Status VisualServer::free(RID rid) {
         return target ? impl.rasterizer->free(target) : Status{};
     }
     const bool freed = storage.materials.free(rid) || storage.meshes.free(rid) || storage.lights.free(rid) ||
-                       storage.skies.free(rid) || storage.environments.free(rid) || storage.cameras.free(rid) ||
-                       storage.gi_probes.free(rid) || impl.instances.free_scenario(rid) || impl.instances.free(rid);
+                       storage.skies.free(rid) || storage.environments.free(rid) ||
+                       storage.cameras.free(rid) || storage.gi_probes.free(rid) ||
+                       impl.instances.free_scenario(rid) || impl.instances.free(rid);
     return freed ? Status{} : impl.stale.refuse("free", "a live RID", rid);
 }
 

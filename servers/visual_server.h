@@ -1,13 +1,14 @@
 #pragma once
 
-#include "core/expected.h"
-#include "core/image.h"
-#include "core/math/transform.h"
-#include "core/rid.h"
 #include "servers/gi/probe_data.h"
 #include "servers/mesh_surface.h"
 #include "servers/rasterizer.h"
 #include "servers/render_types.h"
+
+#include "core/expected.h"
+#include "core/image.h"
+#include "core/math/transform.h"
+#include "core/rid.h"
 
 #include <memory>
 #include <span>
@@ -30,15 +31,15 @@ struct RenderSettings {
 /// Figures of the last draw() and of the probes, for --stats.
 struct ServerStats {
     FrameStats frame;        ///< summed over the viewports
-    double relight_ms = 0.0; ///< last change of light to volume ready to draw, without the wait for the next step:
-                             ///< work on the cells and upload, summed over the probes that changed
+    double relight_ms = 0.0; ///< last change of light to volume ready to draw, without the wait for the next
+                             ///< step: work on the cells and upload, summed over the probes that changed
     double upload_ms = 0.0;  ///< the upload's part of it
     int lights = 0;          ///< visible ones that stand in a scenario
     int instances = 0;       ///< of meshes that stand in a scenario
 };
 
-/// The only door from scene to renderer. RIDs are plain handles; a stale or foreign one is logged once, answered
-/// with InvalidArgument, and drawing goes on. Main thread only.
+/// The only door from scene to renderer. RIDs are plain handles; a stale or foreign one is logged once,
+/// answered with InvalidArgument, and drawing goes on. Main thread only.
 class VisualServer {
 public:
     explicit VisualServer(std::unique_ptr<Rasterizer> rasterizer);
@@ -46,9 +47,10 @@ public:
     VisualServer(const VisualServer&) = delete;
     VisualServer& operator=(const VisualServer&) = delete;
 
-    // --- data -------------------------------------------------------------------------------------------------
-    /// Keeps the image until it was drawn in each colour space that materials use it in (albedo and emission are
-    /// colours, all else numbers), then lets go of it. Null RID, and a line in the log, if pixels are missing.
+    // --- data ------------------------------------------------------------------------------------
+    /// Keeps the image until it was drawn in each colour space that materials use it in (albedo and emission
+    /// are colours, all else numbers), then lets go of it. Null RID, and a line in the log, if pixels are
+    /// missing.
     RID texture_create(Image image, const TextureParams& params = {});
     /// The same without a copy: the image is shared with the caller, who must not change it.
     RID texture_create(std::shared_ptr<const Image> image, const TextureParams& params = {});
@@ -72,11 +74,11 @@ public:
     RID camera_create(const CameraDesc& desc = {});
     Status camera_set(RID camera, const CameraDesc& desc);
 
-    // --- GI probes --------------------------------------------------------------------------------------------
+    // --- GI probes -------------------------------------------------------------------------------
     RID gi_probe_create();
-    /// Replaces all data: the probe starts over (spec gi-probe-data section 1: assignment recreates the state).
-    /// With an empty blob it pairs by its bounds and is drawn as the null probe (spec gi-shading section 2); a probe
-    /// that was never given data has no effect.
+    /// Replaces all data: the probe starts over (spec gi-probe-data section 1: assignment recreates the
+    /// state). With an empty blob it pairs by its bounds and is drawn as the null probe (spec gi-shading
+    /// section 2); a probe that was never given data has no effect.
     /// @return ParseError if the blob or a number is not valid; the probe then has no data.
     Status gi_probe_set_data(RID probe, const gi::ProbeData& data);
     /// Live parameters: read each draw, or polled (propagation). No set-up is needed.
@@ -87,7 +89,7 @@ public:
     Status gi_probe_set_interior(RID probe, bool interior);
     Status gi_probe_set_dynamic_range(RID probe, int dynamic_range);
 
-    // --- scenarios and instances ------------------------------------------------------------------------------
+    // --- scenarios and instances -----------------------------------------------------------------
     RID scenario_create();
     Status scenario_set_environment(RID scenario, RID environment); ///< null RID: none
 
@@ -100,13 +102,14 @@ public:
     Status instance_set_transform(RID instance, const Transform& world_from_local);
     Status instance_set_visible(RID instance, bool visible);
     Status instance_set_layers(RID instance, uint32_t mask);
-    Status instance_set_surface_material(RID instance, int surface, RID material); ///< null RID: the mesh's own
+    /// Null RID: the mesh's own.
+    Status instance_set_surface_material(RID instance, int surface, RID material);
     Status instance_set_material_override(RID instance, RID material);
     Status instance_set_casting(RID instance, ShadowCasting casting);
     Status instance_set_use_in_baked_light(RID instance, bool on);
     Status instance_set_extra_margin(RID instance, float margin_m);
 
-    // --- viewports --------------------------------------------------------------------------------------------
+    // --- viewports -------------------------------------------------------------------------------
     RID viewport_create(glm::ivec2 size, bool to_window = false);
     Status viewport_set_size(RID viewport, glm::ivec2 size);
     Status viewport_set_scenario(RID viewport, RID scenario);
@@ -114,11 +117,11 @@ public:
     /// The last frame drawn: Srgb8 (RGBA8) or LinearFloat (RGBF).
     Expected<Image> viewport_read(RID viewport, TargetFormat format);
 
-    /// Frees any RID of this server. Instances of a freed base become empty, those of a freed scenario are nowhere;
-    /// what used a freed texture, material, sky, environment or camera goes on without.
+    /// Frees any RID of this server. Instances of a freed base become empty, those of a freed scenario are
+    /// nowhere; what used a freed texture, material, sky, environment or camera goes on without.
     Status free(RID rid);
 
-    // --- frames -----------------------------------------------------------------------------------------------
+    // --- frames ----------------------------------------------------------------------------------
     void set_settings(const RenderSettings& settings);
     [[nodiscard]] const RenderSettings& settings() const;
 

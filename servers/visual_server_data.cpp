@@ -1,9 +1,9 @@
 // VisualServer: textures, materials, meshes, lights, skies, environments and cameras.
+#include "servers/visual/finite.h"
 #include "servers/visual_server.h"
+#include "servers/visual_server_impl.h"
 
 #include "core/io/log.h"
-#include "servers/visual/finite.h"
-#include "servers/visual_server_impl.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,8 @@ Expected<glm::ivec2> VisualServer::texture_size(RID texture) const {
 
 RID VisualServer::material_create(const MaterialDesc& desc) {
     const RID material = impl_->storage.materials.make({});
-    static_cast<void>(material_set(material, desc)); // said in the log; the material stays as it is by default
+    static_cast<void>(
+        material_set(material, desc)); // said in the log; the material stays as it is by default
     return material;
 }
 
@@ -72,11 +73,13 @@ Status VisualServer::mesh_surface_set_material(RID mesh, int surface, RID materi
         return impl_->stale.refuse("mesh_surface_set_material", "a mesh", mesh);
     }
     if (surface < 0 || static_cast<size_t>(surface) >= found->surfaces.size()) {
-        return impl_->stale.refuse(fmt::format("mesh_surface_set_material: expected a surface below {}, found {}",
-                                               found->surfaces.size(), surface));
+        return impl_->stale.refuse(
+            fmt::format("mesh_surface_set_material: expected a surface below {}, found {}",
+                        found->surfaces.size(), surface));
     }
     if (Status live = impl_->check_or_null("mesh_surface_set_material", "a material", material,
-                                           impl_->storage.materials); !live) {
+                                           impl_->storage.materials);
+        !live) {
         return live;
     }
     impl_->storage.meshes.set_material(mesh, surface, material);
@@ -95,7 +98,8 @@ Status VisualServer::light_set(RID rid, const LightDesc& desc) {
         return impl_->stale.refuse("light_set", "a light", rid);
     }
     if (!is_finite(desc)) {
-        return impl_->stale.refuse("light_set: expected finite colour, energies, range, attenuations and angle");
+        return impl_->stale.refuse(
+            "light_set: expected finite colour, energies, range, attenuations and angle");
     }
     if (light->desc == desc) {
         return {};
@@ -106,16 +110,21 @@ Status VisualServer::light_set(RID rid, const LightDesc& desc) {
     return {};
 }
 
-RID VisualServer::sky_create(SkyDesc desc) { return impl_->storage.skies.make(std::move(desc)); }
+RID VisualServer::sky_create(SkyDesc desc) {
+    return impl_->storage.skies.make(std::move(desc));
+}
 
-RID VisualServer::environment_create(const EnvironmentDesc& desc) { return impl_->storage.environments.make(desc); }
+RID VisualServer::environment_create(const EnvironmentDesc& desc) {
+    return impl_->storage.environments.make(desc);
+}
 
 Status VisualServer::environment_set(RID rid, const EnvironmentDesc& desc) {
     EnvironmentDesc* environment = impl_->storage.environments.get(rid);
     if (!environment) {
         return impl_->stale.refuse("environment_set", "an environment", rid);
     }
-    if (Status live = impl_->check_or_null("environment_set", "a sky", desc.sky, impl_->storage.skies); !live) {
+    if (Status live = impl_->check_or_null("environment_set", "a sky", desc.sky, impl_->storage.skies);
+        !live) {
         return live;
     }
     *environment = desc;
@@ -137,7 +146,8 @@ Status VisualServer::camera_set(RID rid, const CameraDesc& desc) {
         return impl_->stale.refuse("camera_set: expected a transform of finite numbers");
     }
     if (Status live = impl_->check_or_null("camera_set", "an environment", desc.environment,
-                                           impl_->storage.environments); !live) {
+                                           impl_->storage.environments);
+        !live) {
         return live;
     }
     *camera = desc;

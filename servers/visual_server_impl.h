@@ -1,12 +1,13 @@
 #pragma once
 
-#include "core/threads.h"
 #include "servers/visual/frame_builder.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/probe_driver.h"
 #include "servers/visual/stale_rids.h"
 #include "servers/visual/storage.h"
 #include "servers/visual_server.h"
+
+#include "core/threads.h"
 
 #include <memory>
 #include <string_view>
@@ -18,13 +19,14 @@ struct Viewport {
     glm::ivec2 size{0};
     bool to_window = false;
     RID scenario, camera;
-    RID target;             ///< the rasteriser's; null until first drawn, or the window
+    RID target; ///< the rasteriser's; null until first drawn, or the window
     glm::ivec2 target_size{0};
     bool drawn = false;
 };
 
-/// The parts behind the door. The order of members is the order they may use each other in; destruction runs it
-/// backwards, so that probes give up their jobs before the worker is waited for, and volumes before the rasteriser.
+/// The parts behind the door. The order of members is the order they may use each other in; destruction runs
+/// it backwards, so that probes give up their jobs before the worker is waited for, and volumes before the
+/// rasteriser.
 struct VisualServer::Impl {
     explicit Impl(std::unique_ptr<Rasterizer> backend)
         : rasterizer(std::move(backend)), storage(*rasterizer), instances(storage, *rasterizer),

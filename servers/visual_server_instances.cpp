@@ -1,16 +1,17 @@
 // VisualServer: scenarios and instances.
-#include "servers/visual_server.h"
-
 #include "servers/visual/finite.h"
+#include "servers/visual_server.h"
 #include "servers/visual_server_impl.h"
-
-#include <cmath>
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace cl {
 
-RID VisualServer::scenario_create() { return impl_->instances.make_scenario(); }
+RID VisualServer::scenario_create() {
+    return impl_->instances.make_scenario();
+}
 
 Status VisualServer::scenario_set_environment(RID rid, RID environment) {
     Scenario* scenario = impl_->instances.scenario(rid);
@@ -18,7 +19,8 @@ Status VisualServer::scenario_set_environment(RID rid, RID environment) {
         return impl_->stale.refuse("scenario_set_environment", "a scenario", rid);
     }
     if (Status live = impl_->check_or_null("scenario_set_environment", "an environment", environment,
-                                           impl_->storage.environments); !live) {
+                                           impl_->storage.environments);
+        !live) {
         return live;
     }
     scenario->environment = environment;
@@ -36,7 +38,8 @@ RID VisualServer::instance_create(RID base, RID scenario) {
 Status VisualServer::instance_set_base(RID rid, RID base) {
     return impl_->with_instance("instance_set_base", rid, [&](Instance& instance) -> Status {
         const Storage& storage = impl_->storage;
-        if (base && !storage.meshes.get(base) && !storage.lights.owns(base) && !storage.gi_probes.owns(base)) {
+        if (base && !storage.meshes.get(base) && !storage.lights.owns(base) &&
+            !storage.gi_probes.owns(base)) {
             return impl_->stale.refuse("instance_set_base", "a mesh, light or GI probe", base);
         }
         if (instance.base != base) {
@@ -89,7 +92,8 @@ Status VisualServer::instance_set_surface_material(RID rid, int surface, RID mat
                 "instance_set_surface_material: expected a surface below {}, found {}", count, surface));
         }
         if (Status live = impl_->check_or_null("instance_set_surface_material", "a material", material,
-                                               impl_->storage.materials); !live) {
+                                               impl_->storage.materials);
+            !live) {
             return live;
         }
         instance.surface_materials.resize(count);
@@ -102,7 +106,8 @@ Status VisualServer::instance_set_surface_material(RID rid, int surface, RID mat
 Status VisualServer::instance_set_material_override(RID rid, RID material) {
     return impl_->with_instance("instance_set_material_override", rid, [&](Instance& instance) -> Status {
         if (Status live = impl_->check_or_null("instance_set_material_override", "a material", material,
-                                               impl_->storage.materials); !live) {
+                                               impl_->storage.materials);
+            !live) {
             return live;
         }
         instance.material_override = material;

@@ -1,18 +1,17 @@
 // VisualServer: GI probes.
 #include "servers/visual_server.h"
-
 #include "servers/visual_server_impl.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <string_view>
-
-#include <fmt/format.h>
 
 namespace cl {
 namespace {
 
 /// Sets a parameter that is read on every draw or step: nothing else need be told.
-Status set_number(StaleRIDs& stale, Storage& storage, std::string_view call, RID rid, float GIProbe::* member,
+Status set_number(StaleRIDs& stale, Storage& storage, std::string_view call, RID rid, float GIProbe::*member,
                   float value) {
     GIProbe* probe = storage.gi_probes.get(rid);
     if (!probe) {
@@ -27,7 +26,9 @@ Status set_number(StaleRIDs& stale, Storage& storage, std::string_view call, RID
 
 } // namespace
 
-RID VisualServer::gi_probe_create() { return impl_->storage.gi_probes.make({}); }
+RID VisualServer::gi_probe_create() {
+    return impl_->storage.gi_probes.make({});
+}
 
 Status VisualServer::gi_probe_set_data(RID rid, const gi::ProbeData& data) {
     GIProbe* probe = impl_->storage.gi_probes.get(rid);
@@ -44,12 +45,13 @@ Status VisualServer::gi_probe_set_energy(RID probe, float energy) {
 }
 
 Status VisualServer::gi_probe_set_bias(RID probe, float bias_cells) {
-    return set_number(impl_->stale, impl_->storage, "gi_probe_set_bias", probe, &GIProbe::bias_cells, bias_cells);
+    return set_number(impl_->stale, impl_->storage, "gi_probe_set_bias", probe, &GIProbe::bias_cells,
+                      bias_cells);
 }
 
 Status VisualServer::gi_probe_set_normal_bias(RID probe, float normal_bias_m) {
-    return set_number(impl_->stale, impl_->storage, "gi_probe_set_normal_bias", probe, &GIProbe::normal_bias_m,
-                      normal_bias_m);
+    return set_number(impl_->stale, impl_->storage, "gi_probe_set_normal_bias", probe,
+                      &GIProbe::normal_bias_m, normal_bias_m);
 }
 
 Status VisualServer::gi_probe_set_propagation(RID probe, float propagation) {

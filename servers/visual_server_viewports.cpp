@@ -1,6 +1,5 @@
 // VisualServer: viewports.
 #include "servers/visual_server.h"
-
 #include "servers/visual_server_impl.h"
 
 namespace cl {
@@ -38,7 +37,8 @@ Status VisualServer::viewport_set_camera(RID rid, RID camera) {
     if (!viewport) {
         return impl_->stale.refuse("viewport_set_camera", "a viewport", rid);
     }
-    if (Status live = impl_->check_or_null("viewport_set_camera", "a camera", camera, impl_->storage.cameras); !live) {
+    if (Status live = impl_->check_or_null("viewport_set_camera", "a camera", camera, impl_->storage.cameras);
+        !live) {
         return live;
     }
     viewport->camera = camera;
@@ -62,7 +62,8 @@ Status VisualServer::Impl::ensure_target(Viewport& viewport) {
         return {};
     }
     if (viewport.target) {
-        static_cast<void>(rasterizer->free(viewport.target)); // a backend that lost it has nothing left to free
+        static_cast<void>(
+            rasterizer->free(viewport.target)); // a backend that lost it has nothing left to free
     }
     viewport.target = {};
     viewport.target_size = {};

@@ -1,21 +1,24 @@
 #include "drivers/dummy/dummy_rasterizer.h"
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string_view>
 #include <utility>
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 namespace cl::dummy {
 namespace {
 
-/// RIDs of this rasteriser start above those of any server's kinds, so that a server that mixes them up is told.
+/// RIDs of this rasteriser start above those of any server's kinds, so that a server that mixes them up is
+/// told.
 enum class Kind : uint32_t { Texture = 129, Mesh, Sky, Volume, Target };
 
-constexpr uint32_t first_slot(Kind kind) { return static_cast<uint32_t>(kind); }
+constexpr uint32_t first_slot(Kind kind) {
+    return static_cast<uint32_t>(kind);
+}
 
 uint64_t hash_of(std::span<const uint8_t> bytes) {
     return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -28,29 +31,44 @@ Error stale(const char* what) {
 int64_t triangle_count(const MeshSurface& surface) {
     const int64_t corners = surface.index_count > 0 ? surface.index_count : surface.vertex_count;
     switch (surface.primitive) {
-    case PrimitiveType::Triangles: return corners / 3;
+    case PrimitiveType::Triangles:
+        return corners / 3;
     case PrimitiveType::TriangleStrip:
-    case PrimitiveType::TriangleFan: return std::max<int64_t>(corners - 2, 0);
-    default: return 0;
+    case PrimitiveType::TriangleFan:
+        return std::max<int64_t>(corners - 2, 0);
+    default:
+        return 0;
     }
 }
 
-uint8_t to_byte(float v) { return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); }
+uint8_t to_byte(float v) {
+    return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
+}
 
 } // namespace
 
 std::string_view to_string(CallKind kind) noexcept {
     switch (kind) {
-    case CallKind::TextureCreate: return "texture_create";
-    case CallKind::MeshCreate: return "mesh_create";
-    case CallKind::SkyCreate: return "sky_create";
-    case CallKind::VolumeCreate: return "gi_volume_create";
-    case CallKind::VolumeUpload: return "gi_volume_upload";
-    case CallKind::TargetCreate: return "target_create";
-    case CallKind::Free: return "free";
-    case CallKind::Draw: return "draw";
-    case CallKind::TargetRead: return "target_read";
-    case CallKind::Present: return "present";
+    case CallKind::TextureCreate:
+        return "texture_create";
+    case CallKind::MeshCreate:
+        return "mesh_create";
+    case CallKind::SkyCreate:
+        return "sky_create";
+    case CallKind::VolumeCreate:
+        return "gi_volume_create";
+    case CallKind::VolumeUpload:
+        return "gi_volume_upload";
+    case CallKind::TargetCreate:
+        return "target_create";
+    case CallKind::Free:
+        return "free";
+    case CallKind::Draw:
+        return "draw";
+    case CallKind::TargetRead:
+        return "target_read";
+    case CallKind::Present:
+        return "present";
     }
     return "?";
 }
@@ -59,9 +77,12 @@ DummyRasterizer::DummyRasterizer()
     : textures_(first_slot(Kind::Texture)), meshes_(first_slot(Kind::Mesh)), skies_(first_slot(Kind::Sky)),
       volumes_(first_slot(Kind::Volume)), targets_(first_slot(Kind::Target)) {}
 
-RasterizerInfo DummyRasterizer::info() const { return {"dummy", "no graphics", "none"}; }
+RasterizerInfo DummyRasterizer::info() const {
+    return {"dummy", "no graphics", "none"};
+}
 
-Expected<RID> DummyRasterizer::texture_create(const Image& image, const TextureParams&, TextureColorSpace space) {
+Expected<RID> DummyRasterizer::texture_create(const Image& image, const TextureParams&,
+                                              TextureColorSpace space) {
     if (auto failure = take_failure(CallKind::TextureCreate)) {
         return *failure;
     }
@@ -129,7 +150,8 @@ Status DummyRasterizer::gi_volume_upload(RID rid, int mip, glm::ivec3 offset, gl
     auto source = rgba8.begin();
     for (int z = offset.z; z < end.z; ++z) {
         for (int y = offset.y; y < end.y; ++y) {
-            const auto at = static_cast<std::ptrdiff_t>(4) * ((std::ptrdiff_t{z} * whole.y + y) * whole.x + offset.x);
+            const auto at =
+                static_cast<std::ptrdiff_t>(4) * ((std::ptrdiff_t{z} * whole.y + y) * whole.x + offset.x);
             std::copy(source, source + row_bytes, texels.begin() + at);
             source += row_bytes;
         }
@@ -151,7 +173,8 @@ Status DummyRasterizer::free(RID rid) {
     if (auto failure = take_failure(CallKind::Free)) {
         return *failure;
     }
-    if (!textures_.free(rid) && !meshes_.free(rid) && !skies_.free(rid) && !volumes_.free(rid) && !targets_.free(rid)) {
+    if (!textures_.free(rid) && !meshes_.free(rid) && !skies_.free(rid) && !volumes_.free(rid) &&
+        !targets_.free(rid)) {
         return stale("RID to free");
     }
     record(CallKind::Free, rid, {}, 0, {});
@@ -184,8 +207,8 @@ Status DummyRasterizer::draw(RID rid, const Frame& frame) {
     }
     frame_.emplace(rid, frame);
     record(CallKind::Draw, rid,
-           {static_cast<int>(frame.opaque.size() + frame.transparent.size()), static_cast<int>(frame.lights.size()),
-            static_cast<int>(frame.gi_probes.size())},
+           {static_cast<int>(frame.opaque.size() + frame.transparent.size()),
+            static_cast<int>(frame.lights.size()), static_cast<int>(frame.gi_probes.size())},
            0, {});
     return {};
 }
@@ -220,7 +243,9 @@ Expected<Image> DummyRasterizer::target_read(RID rid, TargetFormat format) {
     return image;
 }
 
-void DummyRasterizer::present() { record(CallKind::Present, {}, {}, 0, {}); }
+void DummyRasterizer::present() {
+    record(CallKind::Present, {}, {}, 0, {});
+}
 
 size_t DummyRasterizer::count(CallKind kind) const noexcept {
     return static_cast<size_t>(
@@ -262,7 +287,8 @@ std::optional<Error> DummyRasterizer::take_failure(CallKind kind) {
     return error;
 }
 
-void DummyRasterizer::record(CallKind kind, RID rid, glm::ivec3 size, int mip, std::span<const uint8_t> bytes) {
+void DummyRasterizer::record(CallKind kind, RID rid, glm::ivec3 size, int mip,
+                             std::span<const uint8_t> bytes) {
     calls_.push_back({kind, rid, size, mip, hash_of(bytes)});
 }
 

@@ -40,7 +40,7 @@ struct RecordedFrame {
     RID target;
     Frame frame; ///< its spans are empty: see below
     std::vector<DrawItem> opaque, transparent;
-    std::vector<LightItem> lights; ///< casters: spans are empty, see below
+    std::vector<LightItem> lights;                ///< casters: spans are empty, see below
     std::vector<std::vector<CasterItem>> casters; ///< of each light
     std::vector<GIProbeShading> gi_probes;
     /// Copies of what the items point to, one for one.
@@ -61,7 +61,8 @@ public:
     DummyRasterizer();
 
     [[nodiscard]] RasterizerInfo info() const override;
-    Expected<RID> texture_create(const Image& image, const TextureParams& params, TextureColorSpace space) override;
+    Expected<RID> texture_create(const Image& image, const TextureParams& params,
+                                 TextureColorSpace space) override;
     Expected<RID> mesh_create(std::span<const MeshSurface> surfaces) override;
     Expected<RID> sky_create(const SkyDesc& sky) override;
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;
@@ -74,7 +75,7 @@ public:
     [[nodiscard]] FrameStats last_stats() const override { return stats_; }
     void present() override;
 
-    // --- what it remembers ------------------------------------------------------------------------------------
+    // --- what it remembers -----------------------------------------------------------------------
     [[nodiscard]] const std::vector<Call>& calls() const noexcept { return calls_; }
     [[nodiscard]] size_t count(CallKind kind) const noexcept;
     void forget_calls() { calls_.clear(); }

@@ -16,8 +16,9 @@ std::vector<MaterialDesc> materials_of(std::span<const DrawItem> items) {
 RecordedFrame::RecordedFrame(RID drawn_to, const Frame& drawn)
     : target(drawn_to), frame(drawn), opaque(drawn.opaque.begin(), drawn.opaque.end()),
       transparent(drawn.transparent.begin(), drawn.transparent.end()),
-      lights(drawn.lights.begin(), drawn.lights.end()), gi_probes(drawn.gi_probes.begin(), drawn.gi_probes.end()),
-      opaque_materials(materials_of(drawn.opaque)), transparent_materials(materials_of(drawn.transparent)) {
+      lights(drawn.lights.begin(), drawn.lights.end()),
+      gi_probes(drawn.gi_probes.begin(), drawn.gi_probes.end()), opaque_materials(materials_of(drawn.opaque)),
+      transparent_materials(materials_of(drawn.transparent)) {
     for (const LightItem& light : drawn.lights) {
         casters.emplace_back(light.casters.begin(), light.casters.end());
         light_descs.push_back(*light.desc);

@@ -24,7 +24,9 @@ constexpr std::array<std::pair<ProbeCause, std::string_view>, 14> kCauseNames{{
     {ProbeCause::LightReshaped, "light reshaped"},
 }};
 
-bool is_lit(const ProbeLight* light) noexcept { return light && light->presence == LightPresence::Lit; }
+bool is_lit(const ProbeLight* light) noexcept {
+    return light && light->presence == LightPresence::Lit;
+}
 
 /// Why a light is lit now that was not, or the other way round. @param unlit  null: not a candidate
 ProbeCause cause_of_turning(const ProbeLight* unlit, bool on) noexcept {

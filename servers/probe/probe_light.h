@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/gi/relight.h"
 #include "servers/render_types.h"
+
+#include "core/rid.h"
 
 #include <cstdint>
 #include <span>
@@ -24,7 +25,8 @@ struct ProbeLight {
 
 /// What the relight reads of a light. @param cells_from_world  the probe's; finite
 [[nodiscard]] ProbeLight make_probe_light(RID key, const LightDesc& desc, bool visible,
-                                          const Transform& world_from_light, const Transform& cells_from_world);
+                                          const Transform& world_from_light,
+                                          const Transform& cells_from_world);
 
 /// Reasons to light a probe again; several may hold at once.
 enum class ProbeCause : uint32_t {
@@ -47,7 +49,9 @@ enum class ProbeCause : uint32_t {
 class ProbeCauses {
 public:
     void add(ProbeCause cause) noexcept { bits_ |= static_cast<uint32_t>(cause); }
-    [[nodiscard]] bool has(ProbeCause cause) const noexcept { return (bits_ & static_cast<uint32_t>(cause)) != 0; }
+    [[nodiscard]] bool has(ProbeCause cause) const noexcept {
+        return (bits_ & static_cast<uint32_t>(cause)) != 0;
+    }
     [[nodiscard]] bool any() const noexcept { return bits_ != 0; }
     /// "light moved, light recoloured", in the order of ProbeCause.
     [[nodiscard]] std::string to_string() const;
@@ -73,6 +77,7 @@ struct LightChanges {
 };
 
 /// How the candidates differ from those a probe was last lit with. Both sorted by key.
-[[nodiscard]] LightChanges compare_lights(std::span<const ProbeLight> before, std::span<const ProbeLight> now);
+[[nodiscard]] LightChanges compare_lights(std::span<const ProbeLight> before,
+                                          std::span<const ProbeLight> now);
 
 } // namespace cl

@@ -3,10 +3,10 @@
 #include "core/assert.h"
 #include "core/io/log.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace cl {
 namespace {
@@ -31,7 +31,9 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 
 ProbeMachine::ProbeMachine(std::string name) : name_(std::move(name)) {}
 
-ProbeMachine::~ProbeMachine() { CL_ASSERT(!volume_, "a GI probe was destroyed before its volume was freed"); }
+ProbeMachine::~ProbeMachine() {
+    CL_ASSERT(!volume_, "a GI probe was destroyed before its volume was freed");
+}
 
 Status ProbeMachine::step(const ProbeWanted& wanted, Rasterizer& rasterizer, const RunJob& run) {
     Status first_error;
@@ -40,7 +42,8 @@ Status ProbeMachine::step(const ProbeWanted& wanted, Rasterizer& rasterizer, con
         const ProbeTransition& transition = probe_transition(stage_, observe(wanted, due));
         if (transition.from == transition.to) {
             if (transition.on == ProbeSignal::Unchanged) {
-                applied_.lights.assign(wanted.lights.begin(), wanted.lights.end()); // remembers who is unlit, and why
+                applied_.lights.assign(wanted.lights.begin(),
+                                       wanted.lights.end()); // remembers who is unlit, and why
             }
             return first_error;
         }
@@ -49,11 +52,20 @@ Status ProbeMachine::step(const ProbeWanted& wanted, Rasterizer& rasterizer, con
         }
         Status done;
         switch (transition.action) {
-        case ProbeAction::None: break;
-        case ProbeAction::SetUp: done = set_up(wanted, rasterizer); break;
-        case ProbeAction::Light: light(wanted, std::move(due.edits), run); break;
-        case ProbeAction::Upload: done = upload(rasterizer); break;
-        case ProbeAction::StartOver: release(rasterizer); break;
+        case ProbeAction::None:
+            break;
+        case ProbeAction::SetUp:
+            done = set_up(wanted, rasterizer);
+            break;
+        case ProbeAction::Light:
+            light(wanted, std::move(due.edits), run);
+            break;
+        case ProbeAction::Upload:
+            done = upload(rasterizer);
+            break;
+        case ProbeAction::StartOver:
+            release(rasterizer);
+            break;
         }
         if (first_error.ok() && !done.ok()) {
             first_error = done;
@@ -112,9 +124,11 @@ ProbeSignal ProbeMachine::observe(const ProbeWanted& wanted, const LightChanges&
             return ProbeSignal::WorkerBusy;
         }
         return cells_->any_mip_changed() ? ProbeSignal::VolumeNew : ProbeSignal::VolumeSame;
-    case ProbeStage::Uploading: return ProbeSignal::VolumeReady;
+    case ProbeStage::Uploading:
+        return ProbeSignal::VolumeReady;
     case ProbeStage::Unset:
-    case ProbeStage::Check: break;
+    case ProbeStage::Check:
+        break;
     }
     return due.causes.any() ? ProbeSignal::RelightDue : ProbeSignal::Unchanged;
 }
@@ -150,7 +164,8 @@ Status ProbeMachine::upload(Rasterizer& rasterizer) {
     for (size_t mip = 0; mip < cells_->mips.size() && status.ok(); ++mip) {
         if (cells_->mip_changed[mip]) {
             const gi::MipLevel& level = cells_->mips[mip];
-            status = rasterizer.gi_volume_upload(volume_, static_cast<int>(mip), glm::ivec3(0), level.size, level.rgba8);
+            status = rasterizer.gi_volume_upload(volume_, static_cast<int>(mip), glm::ivec3(0), level.size,
+                                                 level.rgba8);
         }
     }
     if (status.ok()) {
@@ -187,7 +202,8 @@ void ProbeMachine::log(const ProbeTransition& transition, const ProbeCauses& cau
         return;
     }
     const std::string why = causes.any() ? causes.to_string() : std::string(to_string(transition.on));
-    log_debug(fmt::format("{}: {} -> {} ({})", name_, to_string(transition.from), to_string(transition.to), why));
+    log_debug(
+        fmt::format("{}: {} -> {} ({})", name_, to_string(transition.from), to_string(transition.to), why));
 }
 
 } // namespace cl

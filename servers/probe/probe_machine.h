@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/expected.h"
 #include "servers/probe/probe_light.h"
 #include "servers/probe/probe_stage.h"
 #include "servers/probe/relight_job.h"
 #include "servers/rasterizer.h"
+
+#include "core/expected.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,8 +22,8 @@ struct ProbeWanted {
     std::shared_ptr<const gi::CellLayout> layout; ///< null: no data
     uint64_t data_version = 0;                    ///< another number for each assignment of data
     float propagation = 1.0f;
-    int dynamic_range = 1;                        ///< >= 1
-    std::span<const ProbeLight> lights;           ///< sorted by key
+    int dynamic_range = 1;              ///< >= 1
+    std::span<const ProbeLight> lights; ///< sorted by key
 };
 
 /// Runs a job now or later, in the order given, one at a time.

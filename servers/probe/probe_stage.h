@@ -6,7 +6,8 @@
 
 namespace cl {
 
-// The life of a GI probe, in one table (spec gi-update section 2). ProbeMachine walks it; nothing else decides.
+// The life of a GI probe, in one table (spec gi-update section 2). ProbeMachine walks it; nothing else
+// decides.
 
 /// Where a probe is in its life.
 enum class ProbeStage : uint8_t {

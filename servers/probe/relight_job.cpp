@@ -7,7 +7,8 @@
 namespace cl {
 namespace {
 
-/// Which mips hold a cell whose energy differs. Mip m holds the cells of level levels - 1 - m (spec section 7).
+/// Which mips hold a cell whose energy differs. Mip m holds the cells of level levels - 1 - m (spec section
+/// 7).
 std::vector<bool> changed_mips(const gi::CellLayout& layout, const gi::CellEnergies& before,
                                const gi::CellEnergies& now) {
     const size_t mips = static_cast<size_t>(gi::mip_count(layout.dims));
@@ -16,7 +17,8 @@ std::vector<bool> changed_mips(const gi::CellLayout& layout, const gi::CellEnerg
         return changed;
     }
     for (size_t mip = 0; mip < mips; ++mip) {
-        const std::vector<uint32_t>& cells = layout.cells_of_level[static_cast<size_t>(layout.levels) - 1 - mip];
+        const std::vector<uint32_t>& cells =
+            layout.cells_of_level[static_cast<size_t>(layout.levels) - 1 - mip];
         changed[mip] = std::any_of(cells.begin(), cells.end(), [&before, &now](uint32_t cell) {
             const auto at = static_cast<std::ptrdiff_t>(3 * size_t{cell});
             return !std::equal(now.rgb.begin() + at, now.rgb.begin() + at + 3, before.rgb.begin() + at);
@@ -50,7 +52,8 @@ void carry_out(RelightCells& cells, const RelightOrder& order) {
 
 } // namespace
 
-RelightCells::RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout) : layout(std::move(cell_layout)) {}
+RelightCells::RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout)
+    : layout(std::move(cell_layout)) {}
 
 bool RelightCells::any_mip_changed() const {
     return std::find(mip_changed.begin(), mip_changed.end(), true) != mip_changed.end();
@@ -59,7 +62,8 @@ bool RelightCells::any_mip_changed() const {
 void relight(RelightCells& cells, const RelightOrder& order) {
     const auto start = std::chrono::steady_clock::now();
     carry_out(cells, order);
-    cells.work_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    cells.work_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     cells.busy.store(false, std::memory_order_release);
 }
 

@@ -17,18 +17,19 @@ struct RelightOrder {
     int dynamic_range = 1; ///< >= 1
 };
 
-/// The cells of one probe: what their light is, and the texels made of it. Owned by the probe and, while `busy`,
-/// used by the worker alone; a probe that is freed meanwhile lets go and the worker's share keeps it alive.
+/// The cells of one probe: what their light is, and the texels made of it. Owned by the probe and, while
+/// `busy`, used by the worker alone; a probe that is freed meanwhile lets go and the worker's share keeps it
+/// alive.
 struct RelightCells {
     explicit RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout);
 
     std::shared_ptr<const gi::CellLayout> layout;
-    std::vector<int32_t> leaf_sums;     ///< emission and all lights put in so far; empty before the first order
-    gi::CellEnergies energies;          ///< of the texels in `mips`
+    std::vector<int32_t> leaf_sums; ///< emission and all lights put in so far; empty before the first order
+    gi::CellEnergies energies;      ///< of the texels in `mips`
     std::vector<gi::MipLevel> mips;
-    std::vector<bool> mip_changed;      ///< by the last order: these differ, or may differ, from before
-    int encoded_range = 0;              ///< dynamic range of the texels in `mips`; 0: there are none
-    double work_ms = 0.0;               ///< of the last order
+    std::vector<bool> mip_changed; ///< by the last order: these differ, or may differ, from before
+    int encoded_range = 0;         ///< dynamic range of the texels in `mips`; 0: there are none
+    double work_ms = 0.0;          ///< of the last order
     std::atomic<bool> busy{false};
     std::atomic<bool> abandoned{false}; ///< the result is not wanted any more: stop early
 
@@ -36,8 +37,8 @@ struct RelightCells {
 };
 
 /// Carries out an order: edits the leaves, spreads their energy up the tree, encodes the texels if any energy
-/// differs. Only edits cost a pass over the leaves; the bytes are those of any other history with the same end.
-/// Sets `busy` to false when done.
+/// differs. Only edits cost a pass over the leaves; the bytes are those of any other history with the same
+/// end. Sets `busy` to false when done.
 void relight(RelightCells& cells, const RelightOrder& order);
 
 } // namespace cl

@@ -2,10 +2,10 @@
 
 #include "core/assert.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
-
-#include <glm/common.hpp>
 
 namespace cl {
 namespace {
@@ -40,7 +40,9 @@ BoxTree::Bounds BoxTree::bounds_of(const AABB& box) noexcept {
     return {box.position, end};
 }
 
-bool BoxTree::touching(const AABB& a, const AABB& b) noexcept { return bounds_of(a).touches(bounds_of(b)); }
+bool BoxTree::touching(const AABB& a, const AABB& b) noexcept {
+    return bounds_of(a).touches(bounds_of(b));
+}
 
 BoxTree::Entry BoxTree::insert(const AABB& box, RID item) {
     Entry entry;
@@ -109,7 +111,8 @@ void BoxTree::move(Entry entry, const AABB& box) {
 }
 
 void BoxTree::remove(Entry entry) {
-    CL_ASSERT(entry < entries_.size() && entries_[entry].live, "remove() of an entry that is not in the tree");
+    CL_ASSERT(entry < entries_.size() && entries_[entry].live,
+              "remove() of an entry that is not in the tree");
     Item& item = entries_[entry];
     Node& leaf = nodes_[item.leaf];
     leaf.item = kNone;
@@ -157,7 +160,8 @@ void BoxTree::rebuild() {
     built_nodes_ = nodes_.size();
 }
 
-/// Fills `node` with items[begin, end): halves them at the median of the axis along which centres spread most.
+/// Fills `node` with items[begin, end): halves them at the median of the axis along which centres spread
+/// most.
 void BoxTree::split(std::vector<uint32_t>& items, size_t begin, size_t end, uint32_t node) {
     Bounds all, centers;
     // An empty box (not finite) counts as one at the origin.

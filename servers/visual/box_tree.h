@@ -1,24 +1,25 @@
 #pragma once
 
+#include "servers/visual/frustum.h"
+
 #include "core/math/aabb.h"
 #include "core/rid.h"
-#include "servers/visual/frustum.h"
+
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace cl {
 
 /// Boxes of a scenario, found by overlap in logarithmic time: a binary tree of bounding boxes.
 ///
-/// A new box splits the leaf that it enlarges least; a moved one only refits its ancestors. The tree is built anew
-/// (median split, so its depth is logarithmic again) when a share of it was added, removed or moved, which keeps
-/// every change at O(log n) amortised without the rotations of a self-balancing tree.
-/// A box that is not finite is kept but never found, so that it cannot spoil its neighbours.
+/// A new box splits the leaf that it enlarges least; a moved one only refits its ancestors. The tree is built
+/// anew (median split, so its depth is logarithmic again) when a share of it was added, removed or moved,
+/// which keeps every change at O(log n) amortised without the rotations of a self-balancing tree. A box that
+/// is not finite is kept but never found, so that it cannot spoil its neighbours.
 class BoxTree {
 public:
     using Entry = uint32_t;

@@ -1,18 +1,20 @@
 #include "servers/visual/frame_builder.h"
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 namespace cl {
 namespace {
 
 /// Sorting needs an order, which NaN has not; only overflow at the ends of the world can make one.
-float sortable(float depth_m) { return std::isnan(depth_m) ? 0.0f : depth_m; }
+float sortable(float depth_m) {
+    return std::isnan(depth_m) ? 0.0f : depth_m;
+}
 
 /// How far in front of the camera a point is [m].
 float view_depth_m(const Transform& world_from_camera, const glm::vec3& point) {
@@ -39,7 +41,8 @@ GIProbeShading probe_shading(const Instance& instance, const GIProbe& probe) {
     shading.cells_from_world = probe.cells_from_local * InstanceStorage::placement(instance).inverse();
     shading.bounds_cells = probe.bounds_cells;
     shading.size = probe.layout ? probe.layout->dims : glm::ivec3(0);
-    shading.multiplier = static_cast<float>(shown_range > 0 ? shown_range : probe.dynamic_range) * probe.energy;
+    shading.multiplier =
+        static_cast<float>(shown_range > 0 ? shown_range : probe.dynamic_range) * probe.energy;
     shading.bias_cells = probe.bias_cells;
     shading.normal_bias_m = probe.normal_bias_m;
     shading.blend_ambient = !probe.interior;
@@ -60,8 +63,8 @@ const Frame& FrameBuilder::build(const View& view, const RenderSettings& setting
     if (scenario && camera) {
         add_directional_lights(*scenario);
         const glm::mat4 view_from_world = camera->world_from_camera.inverse().to_mat4();
-        add_visible_instances(*scenario, frustum_from_clip(projection_matrix(*camera, view.size) * view_from_world),
-                              errors);
+        add_visible_instances(
+            *scenario, frustum_from_clip(projection_matrix(*camera, view.size) * view_from_world), errors);
         sort_items();
         add_casters(*scenario, errors);
     }
@@ -115,7 +118,8 @@ void FrameBuilder::add_directional_lights(const Scenario& scenario) {
     frame_.directional_count = static_cast<int>(lights_.size());
 }
 
-void FrameBuilder::add_visible_instances(const Scenario& scenario, const Frustum& frustum, FirstError& errors) {
+void FrameBuilder::add_visible_instances(const Scenario& scenario, const Frustum& frustum,
+                                         FirstError& errors) {
     seen_.clear();
     scenario.meshes.seen_by(frustum, [this](RID rid) { seen_.push_back(rid); });
     std::sort(seen_.begin(), seen_.end());
@@ -144,7 +148,8 @@ void FrameBuilder::add_instance(RID rid, Instance& instance, FirstError& errors)
     choose_probes(instance, item);
     const float nearest_m = nearest_view_depth_m(frame_.camera.world_from_camera, instance.world_bounds);
     for (int surface = 0; surface < static_cast<int>(mesh->surfaces.size()); ++surface) {
-        const MaterialStorage::Resolved material = surface_material(storage_, instance, *mesh, surface, errors);
+        const MaterialStorage::Resolved material =
+            surface_material(storage_, instance, *mesh, surface, errors);
         item.surface = surface;
         item.material = material.desc;
         items_.push_back(item);
@@ -152,7 +157,8 @@ void FrameBuilder::add_instance(RID rid, Instance& instance, FirstError& errors)
     }
 }
 
-/// The first 8 omni and 8 spot lights in pair order (spec scene-classes section 8), of those that light it at all.
+/// The first 8 omni and 8 spot lights in pair order (spec scene-classes section 8), of those that light it at
+/// all.
 void FrameBuilder::choose_lights(const Instance& instance, DrawItem& item) {
     item.directional_mask = 0;
     for (int i = 0; i < frame_.directional_count; ++i) {
@@ -230,8 +236,8 @@ void FrameBuilder::add_casters(Scenario& scenario, FirstError& errors) {
     casters_.finish(lights_);
 }
 
-/// Opaque items front to back in steps of a quarter octave, by material and mesh within a step: hidden fragments
-/// cost more than state changes do. Transparent ones by priority, then back to front.
+/// Opaque items front to back in steps of a quarter octave, by material and mesh within a step: hidden
+/// fragments cost more than state changes do. Transparent ones by priority, then back to front.
 void FrameBuilder::sort_items() {
     std::vector<size_t> opaque, transparent;
     for (size_t i = 0; i < items_.size(); ++i) {
@@ -244,7 +250,8 @@ void FrameBuilder::sort_items() {
     std::stable_sort(opaque.begin(), opaque.end(), [&](size_t a, size_t b) {
         const float step_a = step(a), step_b = step(b);
         return step_a != step_b ? step_a < step_b
-                                : std::tie(keys_[a].material, items_[a].mesh) < std::tie(keys_[b].material, items_[b].mesh);
+                                : std::tie(keys_[a].material, items_[a].mesh) <
+                                      std::tie(keys_[b].material, items_[b].mesh);
     });
     std::stable_sort(transparent.begin(), transparent.end(), [this](size_t a, size_t b) {
         const int first = items_[a].material->render_priority, second = items_[b].material->render_priority;

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/rasterizer.h"
 #include "servers/visual/frustum.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/shadow_casters.h"
 #include "servers/visual/storage.h"
 #include "servers/visual_server.h"
+
+#include "core/rid.h"
 
 #include <vector>
 

@@ -6,7 +6,8 @@ namespace cl {
 
 Frustum frustum_from_clip(const glm::mat4& clip_from_world) noexcept {
     const auto row = [&clip_from_world](int i) {
-        return glm::vec4(clip_from_world[0][i], clip_from_world[1][i], clip_from_world[2][i], clip_from_world[3][i]);
+        return glm::vec4(clip_from_world[0][i], clip_from_world[1][i], clip_from_world[2][i],
+                         clip_from_world[3][i]);
     };
     Frustum frustum;
     for (int axis = 0; axis < 3; ++axis) {

@@ -2,11 +2,11 @@
 
 #include "core/math/aabb.h"
 
-#include <array>
-
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include <array>
 
 namespace cl {
 

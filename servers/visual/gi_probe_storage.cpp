@@ -2,27 +2,31 @@
 
 #include "servers/visual/finite.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <glm/vector_relational.hpp>
+
+#include <cmath>
 
 namespace cl {
 namespace {
 
 Status check_numbers(const gi::ProbeData& data) {
-    const auto wrong = [](std::string message) { return Error{ErrorCode::ParseError, std::move(message), {}}; };
+    const auto wrong = [](std::string message) {
+        return Error{ErrorCode::ParseError, std::move(message), {}};
+    };
     if (!is_finite(data.bounds) || glm::any(glm::lessThan(data.bounds.size, glm::vec3(0.0f)))) {
         return wrong("GIProbeData.bounds: expected finite numbers and a size that is not negative");
     }
     if (!std::isfinite(data.cell_size_m) || data.cell_size_m <= 0.0f) {
-        return wrong(fmt::format("GIProbeData.cell_size: expected a positive number, found {}", data.cell_size_m));
+        return wrong(
+            fmt::format("GIProbeData.cell_size: expected a positive number, found {}", data.cell_size_m));
     }
     if (!is_finite(data.cells_from_local)) {
         return wrong("GIProbeData.to_cell_xform: expected finite numbers");
     }
     if (data.dynamic_range < 1) {
-        return wrong(fmt::format("GIProbeData.dynamic_range: expected at least 1, found {}", data.dynamic_range));
+        return wrong(
+            fmt::format("GIProbeData.dynamic_range: expected at least 1, found {}", data.dynamic_range));
     }
     for (float number : {data.energy, data.bias_cells, data.normal_bias_m, data.propagation}) {
         if (!std::isfinite(number)) {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "servers/gi/relight.h"
+#include "servers/visual/version_clock.h"
+
 #include "core/expected.h"
 #include "core/math/aabb.h"
 #include "core/rid.h"
-#include "servers/gi/relight.h"
-#include "servers/visual/version_clock.h"
 
 #include <cstdint>
 #include <memory>
@@ -18,7 +19,7 @@ struct GIProbe {
     uint64_t data_version = 0;                    ///< another for each assignment
     AABB bounds;                                  ///< true box, probe-local [m]
     Transform cells_from_local;
-    glm::vec3 bounds_cells{0.0f};                 ///< size of the true box [cells]
+    glm::vec3 bounds_cells{0.0f}; ///< size of the true box [cells]
     // Read each frame.
     float energy = 1.0f;
     float bias_cells = 1.5f;

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "core/math/aabb.h"
-#include "core/math/transform.h"
-#include "core/rid.h"
 #include "servers/probe/probe_machine.h"
 #include "servers/visual/box_tree.h"
 #include "servers/visual_server.h"
+
+#include "core/math/aabb.h"
+#include "core/math/transform.h"
+#include "core/rid.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,7 +38,8 @@ struct Instance {
     Transform world_from_local;
     bool visible = true;
     uint32_t layers = 1;
-    std::vector<RID> surface_materials; ///< may be shorter than the mesh has surfaces; null RID: the mesh's own
+    /// May be shorter than the mesh has surfaces. Null RID: the mesh's own.
+    std::vector<RID> surface_materials;
     RID material_override;
     ShadowCasting casting = ShadowCasting::On;
     bool use_in_baked_light = false;

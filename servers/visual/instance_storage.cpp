@@ -1,9 +1,9 @@
 #include "servers/visual/instance_storage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace cl {
 
@@ -148,7 +148,8 @@ InstanceKind InstanceStorage::kind_of(RID base) const noexcept {
         return InstanceKind::Mesh;
     }
     if (const Light* light = storage_.lights.get(base)) {
-        return light->desc.type == LightType::Directional ? InstanceKind::DirectionalLight : InstanceKind::LocalLight;
+        return light->desc.type == LightType::Directional ? InstanceKind::DirectionalLight
+                                                          : InstanceKind::LocalLight;
     }
     return storage_.gi_probes.owns(base) ? InstanceKind::GIProbe : InstanceKind::Empty;
 }

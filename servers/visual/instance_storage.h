@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/visual/instance.h"
 #include "servers/visual/storage.h"
+
+#include "core/rid.h"
 
 #include <string>
 #include <unordered_map>
@@ -13,10 +14,10 @@ namespace cl {
 /// Instances and scenarios: where things stand, what overlaps what, and in which order they met.
 ///
 /// Pairing rules (spec gi-update section 8): a mesh pairs with each local light and GI probe whose world box
-/// overlaps or touches its own, whether or not the mesh or the light is visible; a hidden probe pairs with nothing.
-/// Lists keep the order in which pairs came about. Changed instances are updated last-queued-first, so of things
-/// that enter together the later ones pair first; a probe that is hidden and shown, or given new data, moves to the
-/// end.
+/// overlaps or touches its own, whether or not the mesh or the light is visible; a hidden probe pairs with
+/// nothing. Lists keep the order in which pairs came about. Changed instances are updated last-queued-first,
+/// so of things that enter together the later ones pair first; a probe that is hidden and shown, or given new
+/// data, moves to the end.
 class InstanceStorage {
 public:
     InstanceStorage(Storage& storage, Rasterizer& rasterizer);

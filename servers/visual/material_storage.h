@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/render_types.h"
 #include "servers/visual/first_error.h"
 #include "servers/visual/texture_storage.h"
 #include "servers/visual/version_clock.h"
+
+#include "core/rid.h"
 
 #include <cstdint>
 #include <span>
@@ -29,7 +30,7 @@ public:
     struct Resolved {
         RID rid;                            ///< null: the default material
         const MaterialDesc* desc = nullptr; ///< never null from resolve_first()
-        uint64_t version = 0;               ///< another when another material, or other parameters, may result
+        uint64_t version = 0; ///< another when another material, or other parameters, may result
     };
     /// The first live material of `choices`, or what is drawn where no material is set at all. Uploads its
     /// textures if they are not yet.
@@ -37,8 +38,8 @@ public:
 
 private:
     struct Material {
-        MaterialDesc desc;           ///< the server's texture RIDs
-        MaterialDesc resolved;       ///< the rasteriser's
+        MaterialDesc desc;     ///< the server's texture RIDs
+        MaterialDesc resolved; ///< the rasteriser's
         uint64_t version = 0;
         uint64_t resolved_epoch = 0; ///< 0: not resolved
     };

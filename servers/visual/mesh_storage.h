@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/mesh_surface.h"
 #include "servers/rasterizer.h"
 #include "servers/visual/first_error.h"
 #include "servers/visual/version_clock.h"
+
+#include "core/rid.h"
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +15,7 @@ namespace cl {
 /// A mesh behind its RID.
 struct Mesh {
     struct Surface {
-        AABB bounds; ///< mesh space [m]
+        AABB bounds;  ///< mesh space [m]
         RID material; ///< null: none of its own
     };
     std::vector<Surface> surfaces;

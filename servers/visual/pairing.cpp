@@ -8,9 +8,12 @@ namespace {
 
 BoxTree& tree_of(Scenario& scenario, InstanceKind kind) {
     switch (kind) {
-    case InstanceKind::LocalLight: return scenario.local_lights;
-    case InstanceKind::GIProbe: return scenario.gi_probes;
-    default: break;
+    case InstanceKind::LocalLight:
+        return scenario.local_lights;
+    case InstanceKind::GIProbe:
+        return scenario.gi_probes;
+    default:
+        break;
     }
     return scenario.meshes;
 }
@@ -23,7 +26,8 @@ std::vector<RID>& partners_of(Instance& mesh, InstanceKind kind) {
 } // namespace
 
 Transform InstanceStorage::placement(const Instance& instance) noexcept {
-    return instance.kind == InstanceKind::Mesh ? instance.world_from_local : instance.world_from_local.orthonormalized();
+    return instance.kind == InstanceKind::Mesh ? instance.world_from_local
+                                               : instance.world_from_local.orthonormalized();
 }
 
 std::optional<AABB> InstanceStorage::world_bounds_of(const Instance& instance) const {
@@ -37,14 +41,17 @@ std::optional<AABB> InstanceStorage::world_bounds_of(const Instance& instance) c
     }
     case InstanceKind::LocalLight: {
         const Light* light = storage_.lights.get(instance.base);
-        return light ? std::optional(transformed(placement(instance), light_bounds(light->desc))) : std::nullopt;
+        return light ? std::optional(transformed(placement(instance), light_bounds(light->desc)))
+                     : std::nullopt;
     }
     case InstanceKind::GIProbe: {
         const GIProbe* probe = storage_.gi_probes.get(instance.base);
-        return probe && probe->has_data ? std::optional(transformed(placement(instance), probe->bounds)) : std::nullopt;
+        return probe && probe->has_data ? std::optional(transformed(placement(instance), probe->bounds))
+                                        : std::nullopt;
     }
     case InstanceKind::Empty:
-    case InstanceKind::DirectionalLight: break;
+    case InstanceKind::DirectionalLight:
+        break;
     }
     return std::nullopt;
 }
@@ -80,7 +87,9 @@ void InstanceStorage::pair_mesh(Instance& mesh, Scenario& scenario) {
     for (InstanceKind kind : {InstanceKind::LocalLight, InstanceKind::GIProbe}) {
         std::vector<RID>& partners = partners_of(mesh, kind);
         std::vector<RID> found;
-        tree_of(scenario, kind).overlapping(mesh.world_bounds, [&found](RID partner) { found.push_back(partner); });
+        tree_of(scenario, kind).overlapping(mesh.world_bounds, [&found](RID partner) {
+            found.push_back(partner);
+        });
         const auto lacks = [](const std::vector<RID>& list, RID rid) {
             return std::find(list.begin(), list.end(), rid) == list.end();
         };
@@ -93,8 +102,8 @@ void InstanceStorage::pair_mesh(Instance& mesh, Scenario& scenario) {
     }
 }
 
-/// Brings the meshes around a light or probe in line with its new box. No list of them is kept: they are always
-/// just those that the tree finds in its box.
+/// Brings the meshes around a light or probe in line with its new box. No list of them is kept: they are
+/// always just those that the tree finds in its box.
 void InstanceStorage::pair_partner(RID rid, Instance& partner, Scenario& scenario,
                                    const std::optional<AABB>& old_bounds) {
     const AABB& bounds = partner.world_bounds;

@@ -9,7 +9,8 @@
 
 namespace cl {
 
-ProbeDriver::ProbeDriver(Storage& storage, InstanceStorage& instances, Rasterizer& rasterizer, WorkerQueue& worker)
+ProbeDriver::ProbeDriver(Storage& storage, InstanceStorage& instances, Rasterizer& rasterizer,
+                         WorkerQueue& worker)
     : storage_(storage), instances_(instances), rasterizer_(rasterizer),
       run_([&worker](std::function<void()> job) { worker.push(std::move(job)); }) {}
 
@@ -66,12 +67,14 @@ ProbeWanted ProbeDriver::wanted(const Instance& instance) {
             .lights = lights_};
 }
 
-/// All directional lights of the scenario, and local ones whose box overlaps or touches the probe's (spec gi-update
-/// section 4). Departs: a hidden probe keeps its local lights, so that it is right on the first frame it is shown.
+/// All directional lights of the scenario, and local ones whose box overlaps or touches the probe's (spec
+/// gi-update section 4). Departs: a hidden probe keeps its local lights, so that it is right on the first
+/// frame it is shown.
 void ProbeDriver::gather_lights(const Instance& instance, const GIProbe& probe) {
     Scenario* scenario = instances_.scenario(instance.scenario);
     const std::optional<AABB> bounds = instances_.world_bounds_of(instance);
-    const Transform cells_from_world = probe.cells_from_local * InstanceStorage::placement(instance).inverse();
+    const Transform cells_from_world =
+        probe.cells_from_local * InstanceStorage::placement(instance).inverse();
     if (!scenario || !bounds || !is_finite(cells_from_world)) {
         return;
     }
@@ -79,7 +82,8 @@ void ProbeDriver::gather_lights(const Instance& instance, const GIProbe& probe) 
         add_light(light, cells_from_world);
     }
     scenario->local_lights.overlapping(*bounds, [&](RID light) { add_light(light, cells_from_world); });
-    std::sort(lights_.begin(), lights_.end(), [](const ProbeLight& a, const ProbeLight& b) { return a.key < b.key; });
+    std::sort(lights_.begin(), lights_.end(),
+              [](const ProbeLight& a, const ProbeLight& b) { return a.key < b.key; });
 }
 
 void ProbeDriver::add_light(RID rid, const Transform& cells_from_world) {
@@ -88,8 +92,8 @@ void ProbeDriver::add_light(RID rid, const Transform& cells_from_world) {
     if (!light) {
         return;
     }
-    ProbeLight candidate = make_probe_light(rid, light->desc, instance.visible, InstanceStorage::placement(instance),
-                                            cells_from_world);
+    ProbeLight candidate = make_probe_light(rid, light->desc, instance.visible,
+                                            InstanceStorage::placement(instance), cells_from_world);
     // Finite factors may still have a product that is not.
     if (is_finite(candidate.light.cells_from_light) && std::isfinite(candidate.light.energy)) {
         lights_.push_back(std::move(candidate));

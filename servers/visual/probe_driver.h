@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/expected.h"
-#include "core/threads.h"
 #include "servers/probe/probe_machine.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/storage.h"
+
+#include "core/expected.h"
+#include "core/threads.h"
 
 #include <vector>
 
@@ -21,8 +22,8 @@ public:
     /// False if a step would do anything, now or once the worker is done.
     [[nodiscard]] bool is_settled();
 
-    /// Of the last round: from the first probe that was lit while all were at rest, to the last that came to rest.
-    /// Work on the cells and upload, summed over the probes.
+    /// Of the last round: from the first probe that was lit while all were at rest, to the last that came to
+    /// rest. Work on the cells and upload, summed over the probes.
     [[nodiscard]] double relight_ms() const noexcept { return total_relight_ms_ - round_start_relight_ms_; }
     [[nodiscard]] double upload_ms() const noexcept { return total_upload_ms_ - round_start_upload_ms_; }
 

@@ -1,9 +1,9 @@
 #include "servers/visual/shadow_casters.h"
 
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <array>
-
-#include <glm/matrix.hpp>
 
 namespace cl {
 namespace {
@@ -15,12 +15,12 @@ bool casts(const LightDesc& light) noexcept {
 
 } // namespace
 
-MaterialStorage::Resolved surface_material(Storage& storage, const Instance& instance, const Mesh& mesh, int surface,
-                                           FirstError& errors) {
+MaterialStorage::Resolved surface_material(Storage& storage, const Instance& instance, const Mesh& mesh,
+                                           int surface, FirstError& errors) {
     const size_t i = static_cast<size_t>(surface);
     const RID own = i < instance.surface_materials.size() ? instance.surface_materials[i] : RID{};
-    return storage.materials.resolve_first(std::array{instance.material_override, own, mesh.surfaces[i].material},
-                                           errors);
+    return storage.materials.resolve_first(
+        std::array{instance.material_override, own, mesh.surfaces[i].material}, errors);
 }
 
 void ShadowCasters::clear() {
@@ -31,15 +31,16 @@ void ShadowCasters::clear() {
     directional_bounds_ = {};
 }
 
-void ShadowCasters::add_light(Scenario& scenario, Instance& light_instance, const Light& light, LightItem& item,
-                              FirstError& errors) {
+void ShadowCasters::add_light(Scenario& scenario, Instance& light_instance, const Light& light,
+                              LightItem& item, FirstError& errors) {
     Range range;
     if (casts(light.desc) && light.desc.type == LightType::Directional) {
         if (!directional_) {
             directional_ = collect(scenario, std::nullopt, errors);
             for (size_t i = directional_->begin; i < casters_.size(); ++i) {
-                directional_bounds_ = i == directional_->begin ? casters_[i].world_bounds
-                                                               : directional_bounds_.merged(casters_[i].world_bounds);
+                directional_bounds_ = i == directional_->begin
+                                          ? casters_[i].world_bounds
+                                          : directional_bounds_.merged(casters_[i].world_bounds);
             }
         }
         range = *directional_;
@@ -61,7 +62,8 @@ void ShadowCasters::finish(std::span<LightItem> lights) {
     }
 }
 
-ShadowCasters::Range ShadowCasters::collect(Scenario& scenario, const std::optional<AABB>& box, FirstError& errors) {
+ShadowCasters::Range ShadowCasters::collect(Scenario& scenario, const std::optional<AABB>& box,
+                                            FirstError& errors) {
     found_.clear();
     const auto add = [this](RID rid) { found_.push_back(rid); };
     if (box) {
@@ -83,8 +85,10 @@ void ShadowCasters::add_instance(RID rid, const Instance& instance, FirstError& 
         return;
     }
     for (int surface = 0; surface < static_cast<int>(mesh->surfaces.size()); ++surface) {
-        const MaterialStorage::Resolved material = surface_material(storage_, instance, *mesh, surface, errors);
-        const RID uploaded = material.desc->casts_shadow() ? storage_.meshes.uploaded(instance.base, errors) : RID{};
+        const MaterialStorage::Resolved material =
+            surface_material(storage_, instance, *mesh, surface, errors);
+        const RID uploaded =
+            material.desc->casts_shadow() ? storage_.meshes.uploaded(instance.base, errors) : RID{};
         if (!uploaded) {
             continue;
         }

@@ -10,10 +10,10 @@
 
 namespace cl {
 
-/// The material a surface is drawn with: the instance's override, its own for the surface, the mesh's, the default
-/// (spec scene-classes section 4).
-[[nodiscard]] MaterialStorage::Resolved surface_material(Storage& storage, const Instance& instance, const Mesh& mesh,
-                                                         int surface, FirstError& errors);
+/// The material a surface is drawn with: the instance's override, its own for the surface, the mesh's, the
+/// default (spec scene-classes section 4).
+[[nodiscard]] MaterialStorage::Resolved surface_material(Storage& storage, const Instance& instance,
+                                                         const Mesh& mesh, int surface, FirstError& errors);
 
 /// Collects what casts the shadows of one frame's lights.
 class ShadowCasters {
@@ -21,8 +21,8 @@ public:
     ShadowCasters(Storage& storage, InstanceStorage& instances) : storage_(storage), instances_(instances) {}
 
     void clear();
-    /// Casters of a light: of an omni or spot light those whose box overlaps its own; of a directional one all.
-    /// Fills `casters_version` at once; the spans come with finish(), when the list has stopped growing.
+    /// Casters of a light: of an omni or spot light those whose box overlaps its own; of a directional one
+    /// all. Fills `casters_version` at once; the spans come with finish(), when the list has stopped growing.
     void add_light(Scenario& scenario, Instance& light_instance, const Light& light, LightItem& item,
                    FirstError& errors);
     /// Sets `casters` of the lights added, which are `lights` in the order they were added in.

@@ -9,7 +9,9 @@ namespace cl {
 SkyStorage::SkyStorage(Rasterizer& rasterizer)
     : rasterizer_(rasterizer), skies_(static_cast<uint32_t>(RIDKind::Sky)) {}
 
-RID SkyStorage::make(SkyDesc desc) { return skies_.make({std::move(desc), {}}); }
+RID SkyStorage::make(SkyDesc desc) {
+    return skies_.make({std::move(desc), {}});
+}
 
 bool SkyStorage::free(RID rid) {
     const Sky* sky = skies_.get(rid);

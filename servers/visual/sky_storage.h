@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/rasterizer.h"
 #include "servers/visual/first_error.h"
+
+#include "core/rid.h"
 
 #include <optional>
 

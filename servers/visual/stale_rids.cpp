@@ -7,8 +7,9 @@
 namespace cl {
 
 Status StaleRIDs::refuse(std::string_view call, std::string_view expected, RID found) {
-    const std::string what = found ? fmt::format("RID {}:{}, which is freed or of another kind", found.slot, found.generation)
-                                   : std::string("the null RID");
+    const std::string what =
+        found ? fmt::format("RID {}:{}, which is freed or of another kind", found.slot, found.generation)
+              : std::string("the null RID");
     return refuse(fmt::format("{}: expected {}, found {}", call, expected, what));
 }
 

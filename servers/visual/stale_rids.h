@@ -15,7 +15,8 @@ class StaleRIDs {
 public:
     /// @param call      "light_set"
     /// @param expected  "a light"
-    /// @return InvalidArgument "light_set: expected a light, found RID 67108867:2, which is freed or of another kind"
+    /// @return InvalidArgument "light_set: expected a light, found RID 67108867:2, which is freed or of
+    /// another kind"
     Status refuse(std::string_view call, std::string_view expected, RID found);
     /// For other misuse at the door, said once for each text.
     Status refuse(std::string message);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/rid.h"
 #include "servers/rasterizer.h"
 #include "servers/visual/gi_probe_storage.h"
 #include "servers/visual/material_storage.h"
@@ -9,6 +8,8 @@
 #include "servers/visual/sky_storage.h"
 #include "servers/visual/texture_storage.h"
 #include "servers/visual/version_clock.h"
+
+#include "core/rid.h"
 
 namespace cl {
 

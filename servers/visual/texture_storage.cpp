@@ -1,14 +1,17 @@
 #include "servers/visual/texture_storage.h"
 
-#include "core/io/log.h"
 #include "servers/visual/rid_kinds.h"
+
+#include "core/io/log.h"
 
 #include <fmt/format.h>
 
 namespace cl {
 namespace {
 
-size_t index_of(TextureColorSpace space) noexcept { return static_cast<size_t>(space); }
+size_t index_of(TextureColorSpace space) noexcept {
+    return static_cast<size_t>(space);
+}
 
 } // namespace
 
@@ -65,7 +68,8 @@ RID TextureStorage::uploaded(RID rid, TextureColorSpace space, FirstError& error
     const std::shared_ptr<const Image> image = texture->image ? texture->image : texture->shared_image.lock();
     if (!image) {
         log_warning(fmt::format("texture {}: its image was released before a material first used it as {}; "
-                                "create it again to use it so", rid.slot & 0xFFFFFFu,
+                                "create it again to use it so",
+                                rid.slot & 0xFFFFFFu,
                                 space == TextureColorSpace::Srgb ? "colours" : "numbers"));
         return texture->uploads[1 - index_of(space)];
     }

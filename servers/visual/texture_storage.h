@@ -1,9 +1,10 @@
 #pragma once
 
-#include "core/image.h"
-#include "core/rid.h"
 #include "servers/rasterizer.h"
 #include "servers/visual/first_error.h"
+
+#include "core/image.h"
+#include "core/rid.h"
 
 #include <array>
 #include <memory>
@@ -12,8 +13,8 @@
 namespace cl {
 
 /// Calls f(RID& texture, TextureColorSpace) for each texture slot of a material. The rule of colour spaces:
-/// albedo and emission hold colours and are decoded from sRGB; metallic, roughness, normal and ao hold numbers.
-/// (Spec scene-classes section 18, "Sampler".)
+/// albedo and emission hold colours and are decoded from sRGB; metallic, roughness, normal and ao hold
+/// numbers. (Spec scene-classes section 18, "Sampler".)
 template <typename Material, typename F>
 void for_each_texture(Material& material, F&& f) {
     f(material.albedo_texture, TextureColorSpace::Srgb);
@@ -26,10 +27,10 @@ void for_each_texture(Material& material, F&& f) {
 
 /// Images until they are first drawn, rasteriser textures from then on.
 ///
-/// One image may be sampled as colours by one material and as numbers by another; it is uploaded for each use,
-/// when first drawn. The image in memory is let go once it is uploaded in every space that living materials use.
-/// If a later material wants the other space, whoever shares the image may still hold it; else it is drawn in
-/// the space it has, with a warning.
+/// One image may be sampled as colours by one material and as numbers by another; it is uploaded for each
+/// use, when first drawn. The image in memory is let go once it is uploaded in every space that living
+/// materials use. If a later material wants the other space, whoever shares the image may still hold it; else
+/// it is drawn in the space it has, with a warning.
 class TextureStorage {
 public:
     explicit TextureStorage(Rasterizer& rasterizer);
@@ -50,13 +51,13 @@ public:
 
 private:
     struct Texture {
-        std::shared_ptr<const Image> image;       ///< until released
-        std::weak_ptr<const Image> shared_image;  ///< others may hold it longer
+        std::shared_ptr<const Image> image;      ///< until released
+        std::weak_ptr<const Image> shared_image; ///< others may hold it longer
         TextureParams params;
         glm::ivec2 size{0};
-        std::array<RID, 2> uploads;               ///< by TextureColorSpace
-        std::array<int, 2> uses{};                ///< living materials, by TextureColorSpace
-        bool failed = false;                      ///< refused by the rasteriser: not tried again
+        std::array<RID, 2> uploads; ///< by TextureColorSpace
+        std::array<int, 2> uses{};  ///< living materials, by TextureColorSpace
+        bool failed = false;        ///< refused by the rasteriser: not tried again
     };
     void release_image_if_spent(Texture& texture) const noexcept;
 

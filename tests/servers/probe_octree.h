@@ -12,9 +12,9 @@ namespace cl::tests {
 /// A leaf of a hand-made octree.
 struct TestVoxel {
     glm::ivec3 voxel;
-    uint32_t albedo = 0xFFFFFF;   ///< 0x00RRGGBB
-    uint32_t normal = 0x7FFF7F;   ///< 0x00XXYYZZ: up
-    uint32_t emission = 0;        ///< 0xRRGGBBLL
+    uint32_t albedo = 0xFFFFFF; ///< 0x00RRGGBB
+    uint32_t normal = 0x7FFF7F; ///< 0x00XXYYZZ: up
+    uint32_t emission = 0;      ///< 0xRRGGBBLL
 };
 
 /// The least tree (64 cells along the longest axis) that holds these leaves; dims are powers of two up to 64.
@@ -38,7 +38,8 @@ inline gi::Octree make_octree(glm::ivec3 dims, const std::vector<TestVoxel>& vox
         uint32_t cell = 0;
         for (int level = 1; level < kLevels; ++level) {
             const int bit = kLevels - 1 - level;
-            const int slot = ((v.voxel.x >> bit) & 1) | ((v.voxel.y >> bit) & 1) << 1 | ((v.voxel.z >> bit) & 1) << 2;
+            const int slot =
+                ((v.voxel.x >> bit) & 1) | ((v.voxel.y >> bit) & 1) << 1 | ((v.voxel.z >> bit) & 1) << 2;
             uint32_t child = octree.cells[cell].children[slot];
             if (child == gi::kNoChild) {
                 child = static_cast<uint32_t>(octree.cells.size());
@@ -57,7 +58,8 @@ inline gi::Octree make_octree(glm::ivec3 dims, const std::vector<TestVoxel>& vox
         gi::Cell& cell = octree.cells[i];
         float sum = 0.0f;
         for (uint32_t child : cell.children) {
-            sum += child == gi::kNoChild ? 0.0f : static_cast<float>(octree.cells[child].level_alpha & 0xFFFF);
+            sum +=
+                child == gi::kNoChild ? 0.0f : static_cast<float>(octree.cells[child].level_alpha & 0xFFFF);
         }
         cell.level_alpha |= static_cast<uint32_t>(sum / 8.0f);
     }

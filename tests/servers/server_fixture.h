@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/dummy/dummy_rasterizer.h"
+
 #include "servers/rasterizer_checked.h"
 #include "servers/visual_server.h"
 
@@ -22,8 +23,8 @@ inline Transform at(float x, float y, float z) {
 inline MeshSurface box_surface(glm::vec3 half_m = glm::vec3(0.5f)) {
     SurfaceArrays arrays;
     for (int corner = 0; corner < 8; ++corner) {
-        arrays.positions.push_back(
-            half_m * glm::vec3(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f));
+        arrays.positions.push_back(half_m * glm::vec3(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f,
+                                                      corner & 4 ? 1.0f : -1.0f));
     }
     arrays.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
@@ -42,7 +43,8 @@ struct ServerFixture {
     ServerFixture() : ServerFixture(std::make_unique<dummy::DummyRasterizer>()) {}
 
     RID mesh(glm::vec3 half_m = glm::vec3(0.5f), int surfaces = 1) {
-        Expected<RID> made = server.mesh_create(std::vector<MeshSurface>(static_cast<size_t>(surfaces), box_surface(half_m)));
+        Expected<RID> made =
+            server.mesh_create(std::vector<MeshSurface>(static_cast<size_t>(surfaces), box_surface(half_m)));
         REQUIRE(made);
         return *made;
     }

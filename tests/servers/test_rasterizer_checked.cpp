@@ -1,6 +1,7 @@
 #include "tests/servers/server_fixture.h"
 
 #include "drivers/dummy/dummy_rasterizer.h"
+
 #include "servers/rasterizer_checked.h"
 
 #include <doctest/doctest.h>
@@ -90,7 +91,8 @@ std::string draw_after(const std::function<void(WholeFrame&)>& spoil) {
 } // namespace
 
 TEST_SUITE("servers/rasterizer_checked") {
-    TEST_CASE("images, skies, volumes and targets of impossible sizes are refused before the backend sees them") {
+    TEST_CASE(
+        "images, skies, volumes and targets of impossible sizes are refused before the backend sees them") {
         Checked c;
         const auto message = [](const auto& result) { return result.error().message; };
         const TextureParams params;
@@ -108,8 +110,10 @@ TEST_SUITE("servers/rasterizer_checked") {
               "sky_create: expected a radiance map size that is a power of two, found 100");
         CHECK(message(c.checked.gi_volume_create({{8, 0, 8}, 1})) ==
               "gi_volume_create: expected edges that are powers of two up to 2048, found 8x0x8");
-        CHECK(message(c.checked.gi_volume_create({{8, 4, 8}, 5})) == "gi_volume_create: expected 1 to 4 mips, found 5");
-        CHECK(message(c.checked.target_create({0, 9})) == "target_create: expected a size of 1 to 16384, found 0x9");
+        CHECK(message(c.checked.gi_volume_create({{8, 4, 8}, 5})) ==
+              "gi_volume_create: expected 1 to 4 mips, found 5");
+        CHECK(message(c.checked.target_create({0, 9})) ==
+              "target_create: expected a size of 1 to 16384, found 0x9");
         MeshSurface torn = tests::box_surface();
         torn.vertices.pop_back();
         CHECK(message(c.checked.mesh_create(std::span(&torn, 1))).starts_with("mesh_create: "));
@@ -126,8 +130,10 @@ TEST_SUITE("servers/rasterizer_checked") {
         };
         CHECK(message(1, {0, 0, 0}, {4, 2, 4}).empty());
         CHECK(message(3, {0, 0, 0}, {1, 1, 1}) == "gi_volume_upload: expected a mip below 3, found 3");
-        CHECK(message(1, {1, 0, 0}, {4, 2, 4}) == "gi_volume_upload: expected a box inside 4x2x4, found 4x2x4 at 1x0x0");
-        CHECK(message(1, {2147483647, 0, 0}, {4, 2, 4}).starts_with("gi_volume_upload: expected a box inside"));
+        CHECK(message(1, {1, 0, 0}, {4, 2, 4}) ==
+              "gi_volume_upload: expected a box inside 4x2x4, found 4x2x4 at 1x0x0");
+        CHECK(
+            message(1, {2147483647, 0, 0}, {4, 2, 4}).starts_with("gi_volume_upload: expected a box inside"));
         CHECK(message(1, {0, 0, 0}, {4, 2, 3}) == "gi_volume_upload: expected 96 bytes, found 128");
         CHECK(!c.checked.gi_volume_upload(RID{9, 9}, 0, {}, {1, 1, 1}, texels));
     }
@@ -140,12 +146,15 @@ TEST_SUITE("servers/rasterizer_checked") {
         CHECK(!c.checked.target_read(target, TargetFormat::Srgb8));
         Frame frame;
         frame.size = {2, 2};
-        CHECK(c.checked.draw(target, frame).error().message == "draw: expected a live target or the null RID");
+        CHECK(c.checked.draw(target, frame).error().message ==
+              "draw: expected a live target or the null RID");
     }
 
     TEST_CASE("a frame in order is drawn, one with any wrong part is refused with the part's name") {
         CHECK(draw_after([](WholeFrame&) {}).empty());
-        CHECK(draw_after([](WholeFrame& f) { f.frame.size = {0, 4}; }) == "draw: expected a size above 0, found 0x4");
+        CHECK(draw_after([](WholeFrame& f) {
+                  f.frame.size = {0, 4};
+              }) == "draw: expected a size above 0, found 0x4");
         CHECK(draw_after([](WholeFrame& f) { f.opaque[0].material = nullptr; }) ==
               "draw: expected a material in each item");
         CHECK(draw_after([](WholeFrame& f) { f.opaque[0].mesh = f.texture; }) ==
@@ -156,10 +165,12 @@ TEST_SUITE("servers/rasterizer_checked") {
               "draw: expected live textures or null RIDs in each material");
         CHECK(draw_after([](WholeFrame& f) { f.material.transparent = true; }) ==
               "draw: expected each item in the list that its material belongs to");
-        CHECK(draw_after([](WholeFrame& f) { f.opaque[0].gi_probes = {1, -1}; }) ==
-              "draw: expected a probe below 1, found 1");
-        CHECK(draw_after([](WholeFrame& f) { f.opaque[0].gi_probes = {-1, 0}; }) ==
-              "draw: expected a first probe wherever there is a second");
+        CHECK(draw_after([](WholeFrame& f) {
+                  f.opaque[0].gi_probes = {1, -1};
+              }) == "draw: expected a probe below 1, found 1");
+        CHECK(draw_after([](WholeFrame& f) {
+                  f.opaque[0].gi_probes = {-1, 0};
+              }) == "draw: expected a first probe wherever there is a second");
         CHECK(draw_after([](WholeFrame& f) { f.opaque[0].omnis[0] = 0; }) ==
               "draw: expected an index of a light of the right type, found 0");
         CHECK(draw_after([](WholeFrame& f) { f.opaque[0].spot_count = 9; }) ==
@@ -170,11 +181,13 @@ TEST_SUITE("servers/rasterizer_checked") {
               "draw: expected a directional_count of at most 16 and 2 lights, found 3");
         CHECK(draw_after([](WholeFrame& f) { f.lights[1].desc = nullptr; }) ==
               "draw: expected a description of each light");
-        CHECK(draw_after([](WholeFrame& f) { f.casters[0].mesh = {}; }) == "draw: expected a live mesh in each item");
+        CHECK(draw_after([](WholeFrame& f) { f.casters[0].mesh = {}; }) ==
+              "draw: expected a live mesh in each item");
         CHECK(draw_after([](WholeFrame& f) { f.probes[0].volume = f.mesh; }) ==
               "draw: expected a live GI volume or the null RID in each probe");
-        CHECK(draw_after([](WholeFrame& f) { f.probes[0].size = {8, 8, 4}; }) ==
-              "draw: expected the probe to have its volume's size 8x8x8, found 8x8x4");
+        CHECK(draw_after([](WholeFrame& f) {
+                  f.probes[0].size = {8, 8, 4};
+              }) == "draw: expected the probe to have its volume's size 8x8x8, found 8x8x4");
         CHECK(draw_after([](WholeFrame& f) {
                   f.frame.has_environment = true;
                   f.frame.environment.sky = f.mesh;

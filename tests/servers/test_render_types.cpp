@@ -1,12 +1,11 @@
 #include "servers/render_types.h"
 
 #include <doctest/doctest.h>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <cmath>
 #include <initializer_list>
-
-#include <glm/mat4x4.hpp>
-#include <glm/trigonometric.hpp>
 
 using namespace cl;
 
@@ -65,9 +64,11 @@ TEST_SUITE("servers/render_types") {
         CameraDesc camera;
         camera.projection = Projection::Orthogonal;
         camera.size_m = 8.0f;
-        check_near(ndc(camera, {200, 100}, {8.0f, 4.0f, -1.0f}), {1.0f, 1.0f, ndc(camera, {200, 100}, {0, 0, -1}).z});
+        check_near(ndc(camera, {200, 100}, {8.0f, 4.0f, -1.0f}),
+                   {1.0f, 1.0f, ndc(camera, {200, 100}, {0, 0, -1}).z});
         camera.keep_aspect = KeepAspect::Width;
-        check_near(ndc(camera, {200, 100}, {4.0f, 2.0f, -1.0f}), {1.0f, 1.0f, ndc(camera, {200, 100}, {0, 0, -1}).z});
+        check_near(ndc(camera, {200, 100}, {4.0f, 2.0f, -1.0f}),
+                   {1.0f, 1.0f, ndc(camera, {200, 100}, {0, 0, -1}).z});
     }
 
     TEST_CASE("a frustum's offset shifts what is seen on its near plane") {
@@ -94,8 +95,9 @@ TEST_SUITE("servers/render_types") {
                     if (type == LightType::Spot && polar > glm::radians(angle_deg)) {
                         continue; // polar is the angle to -Z
                     }
-                    const glm::vec3 p = 2.999f * glm::vec3(std::sin(polar) * std::cos(turn),
-                                                           std::sin(polar) * std::sin(turn), -std::cos(polar));
+                    const glm::vec3 p =
+                        2.999f * glm::vec3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                                           -std::cos(polar));
                     REQUIRE(box.intersects_inclusive({p, glm::vec3(0.0f)}));
                 }
             }
@@ -112,11 +114,13 @@ TEST_SUITE("servers/render_types") {
         check_near(box.size, {8.0f, 8.0f, 4.0f});
     }
 
-    TEST_CASE("a material casts a shadow unless it is blended or untested, and always if cut out or pre-passed") {
+    TEST_CASE(
+        "a material casts a shadow unless it is blended or untested, and always if cut out or pre-passed") {
         MaterialDesc opaque;
         CHECK(opaque.casts_shadow());
         for (auto change : std::initializer_list<void (*)(MaterialDesc&)>{
-                 [](MaterialDesc& m) { m.transparent = true; }, [](MaterialDesc& m) { m.blend_mode = BlendMode::Add; },
+                 [](MaterialDesc& m) { m.transparent = true; },
+                 [](MaterialDesc& m) { m.blend_mode = BlendMode::Add; },
                  [](MaterialDesc& m) { m.no_depth_test = true; }}) {
             MaterialDesc material;
             change(material);

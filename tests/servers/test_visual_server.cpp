@@ -42,8 +42,9 @@ TEST_SUITE("servers/visual_server") {
             const Status status = f.server.light_set(light, {});
             REQUIRE(!status);
             CHECK(status.error().code == ErrorCode::InvalidArgument);
-            CHECK(status.error().message ==
-                  "light_set: expected a light, found RID " + std::to_string(light.slot) + ":1, which is freed or of another kind");
+            CHECK(status.error().message == "light_set: expected a light, found RID " +
+                                                std::to_string(light.slot) +
+                                                ":1, which is freed or of another kind");
             CHECK(f.draw().opaque.size() == 1);
         }
         CHECK(lines_in(captured.text()) == 1);
@@ -96,7 +97,8 @@ TEST_SUITE("servers/visual_server") {
         CHECK(f.draw().opaque.size() == 1);
     }
 
-    TEST_CASE("numbers that are not finite, and surfaces that are not there, are refused and change nothing") {
+    TEST_CASE(
+        "numbers that are not finite, and surfaces that are not there, are refused and change nothing") {
         ServerFixture f;
         const RID box = f.place_box(0, 0, 0);
         const RID base = f.server.light_create({});
@@ -153,7 +155,8 @@ TEST_SUITE("servers/visual_server") {
         for (RID rid : {drawn.albedo_texture, drawn.emission_texture}) {
             CHECK(f.dummy->texture_space(rid) == TextureColorSpace::Srgb);
         }
-        for (RID rid : {drawn.metallic_texture, drawn.roughness_texture, drawn.normal_texture, drawn.ao_texture}) {
+        for (RID rid :
+             {drawn.metallic_texture, drawn.roughness_texture, drawn.normal_texture, drawn.ao_texture}) {
             CHECK(f.dummy->texture_space(rid) == TextureColorSpace::Linear);
         }
         CHECK(f.server.texture_size(texture).value() == glm::ivec2(2, 2));
@@ -181,7 +184,8 @@ TEST_SUITE("servers/visual_server") {
         CHECK(f.dummy->live().textures == 2);
     }
 
-    TEST_CASE("a use in the other space that comes after the image is gone warns and draws with what there is") {
+    TEST_CASE(
+        "a use in the other space that comes after the image is gone warns and draws with what there is") {
         ServerFixture f;
         const RID texture = f.server.texture_create(small_image());
         MaterialDesc desc;
@@ -195,8 +199,9 @@ TEST_SUITE("servers/visual_server") {
         const tests::CapturedStderr captured;
         CHECK(f.draw().opaque_materials.at(0).normal_texture);
         f.draw();
-        CHECK(captured.text() == "warning: texture 0: its image was released before a material first used it as "
-                                 "numbers; create it again to use it so\n");
+        CHECK(captured.text() ==
+              "warning: texture 0: its image was released before a material first used it as "
+              "numbers; create it again to use it so\n");
     }
 
     TEST_CASE("what the rasteriser refuses is reported by draw() once, and the rest is drawn") {
@@ -274,8 +279,9 @@ TEST_SUITE("servers/visual_server") {
             } // else freed while the worker may be at it
             f.draw();
             CHECK(f.dummy->live() == dummy::LiveCounts{2, 1, 1, 1, 1});
-            std::vector<RID> all{texture, material,       sky_rid, environment_rid, mesh,       box,        light,
-                                 light_instance, probe, probe_instance,  f.scenario, f.camera, f.viewport};
+            std::vector<RID> all{texture,    material, sky_rid,        environment_rid, mesh,
+                                 box,        light,    light_instance, probe,           probe_instance,
+                                 f.scenario, f.camera, f.viewport};
             std::shuffle(all.begin(), all.end(), random);
             for (RID rid : all) {
                 REQUIRE(f.server.free(rid));

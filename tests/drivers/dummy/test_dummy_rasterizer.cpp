@@ -24,7 +24,9 @@ TEST_SUITE("drivers/dummy/dummy_rasterizer") {
             written += texels[i] != 0 ? 1 : 0;
         }
         CHECK(written == box.size());
-        const auto texel = [&texels](size_t x, size_t y, size_t z) { return texels[4 * ((z * 4 + y) * 4 + x)]; };
+        const auto texel = [&texels](size_t x, size_t y, size_t z) {
+            return texels[4 * ((z * 4 + y) * 4 + x)];
+        };
         CHECK(texel(1, 2, 0) == 1);
         CHECK(texel(2, 2, 0) == 5);
         CHECK(texel(1, 2, 1) == 9);

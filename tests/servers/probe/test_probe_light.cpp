@@ -37,7 +37,8 @@ ProbeCauses just(ProbeCause cause) {
 } // namespace
 
 TEST_SUITE("servers/probe/probe_light") {
-    TEST_CASE("each change of a lit light has its own cause, takes the old light out and puts the new one in") {
+    TEST_CASE(
+        "each change of a lit light has its own cause, takes the old light out and puts the new one in") {
         struct Change {
             ProbeCause cause;
             std::function<void(LightDesc&)> apply;
@@ -65,18 +66,21 @@ TEST_SUITE("servers/probe/probe_light") {
         }
     }
 
-    TEST_CASE("a light that moved and a probe that moved are told apart; both together are no change to the cells") {
+    TEST_CASE("a light that moved and a probe that moved are told apart; both together are no change to the "
+              "cells") {
         Transform shifted;
         shifted.origin = {-5.0f, 0.0f, 0.0f};
         const ProbeLight before = make(spot());
         CHECK(between(before, make(spot(), true, {6.0f, 2.0f, 3.0f})).causes == just(ProbeCause::LightMoved));
-        CHECK(between(before, make(spot(), true, {1.0f, 2.0f, 3.0f}, shifted)).causes == just(ProbeCause::ProbeMoved));
+        CHECK(between(before, make(spot(), true, {1.0f, 2.0f, 3.0f}, shifted)).causes ==
+              just(ProbeCause::ProbeMoved));
         const LightChanges both = between(before, make(spot(), true, {6.0f, 2.0f, 3.0f}, shifted));
         CHECK(!both.causes.any());
         CHECK(both.edits.empty());
     }
 
-    TEST_CASE("a light that comes, goes, hides, shows or is re-moded is put in or taken out once, and says why") {
+    TEST_CASE(
+        "a light that comes, goes, hides, shows or is re-moded is put in or taken out once, and says why") {
         LightDesc disabled = spot();
         disabled.bake_mode = LightBakeMode::Disabled;
         const ProbeLight lit = make(spot()), hidden = make(spot(), false), off = make(disabled);
@@ -107,7 +111,8 @@ TEST_SUITE("servers/probe/probe_light") {
         }
     }
 
-    TEST_CASE("what a probe does not read of a light is no change: bake mode All, shadow, a directional's range") {
+    TEST_CASE(
+        "what a probe does not read of a light is no change: bake mode All, shadow, a directional's range") {
         LightDesc desc = spot();
         const ProbeLight before = make(desc);
         desc.bake_mode = LightBakeMode::All;

@@ -1,9 +1,9 @@
-#include "servers/probe/probe_machine.h"
-
 #include "tests/captured_stderr.h"
 #include "tests/servers/probe_octree.h"
 
 #include "drivers/dummy/dummy_rasterizer.h"
+
+#include "servers/probe/probe_machine.h"
 #include "servers/rasterizer_checked.h"
 
 #include "core/io/log.h"
@@ -284,7 +284,8 @@ TEST_SUITE("servers/probe/probe_machine") {
         CHECK(!m.machine.is_pending(m.wanted()));
     }
 
-    TEST_CASE("a volume that the rasteriser refuses is reported once and not tried again until there is other data") {
+    TEST_CASE("a volume that the rasteriser refuses is reported once and not tried again until there is "
+              "other data") {
         Machine m;
         m.give_data();
         m.dummy->fail_next(CallKind::VolumeCreate, {ErrorCode::OutOfMemory, "no room", {}});

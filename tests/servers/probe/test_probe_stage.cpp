@@ -27,7 +27,8 @@ TEST_SUITE("servers/probe/probe_stage") {
     }
 
     TEST_CASE("from every stage each other one can be reached") {
-        for (ProbeStage start : {ProbeStage::Unset, ProbeStage::Check, ProbeStage::Lighting, ProbeStage::Uploading}) {
+        for (ProbeStage start :
+             {ProbeStage::Unset, ProbeStage::Check, ProbeStage::Lighting, ProbeStage::Uploading}) {
             std::set<ProbeStage> reached{start};
             for (size_t round = 0; round < 4; ++round) {
                 for (const ProbeTransition& t : kProbeTransitions) {

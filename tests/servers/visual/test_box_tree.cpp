@@ -1,6 +1,5 @@
-#include "servers/visual/box_tree.h"
-
 #include "servers/render_types.h"
+#include "servers/visual/box_tree.h"
 
 #include <doctest/doctest.h>
 
@@ -115,8 +114,9 @@ TEST_SUITE("servers/visual/box_tree") {
     TEST_CASE("a query of one place among 10,000 looks at a hundredth of them at most") {
         World world;
         for (int i = 0; i < 10000; ++i) {
-            world.add({glm::vec3(static_cast<float>(i % 100) * 2.0f, 0.0f, static_cast<float>(i / 100) * 2.0f),
-                       glm::vec3(1.0f)});
+            world.add(
+                {glm::vec3(static_cast<float>(i % 100) * 2.0f, 0.0f, static_cast<float>(i / 100) * 2.0f),
+                 glm::vec3(1.0f)});
         }
         const AABB spot{glm::vec3(50.5f, 0.5f, 50.5f), glm::vec3(0.0f)};
         CHECK(world.found(spot).size() == 1);

@@ -2,13 +2,12 @@
 #include "tests/servers/server_fixture.h"
 
 #include <doctest/doctest.h>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <random>
 #include <set>
 #include <vector>
-
-#include <glm/matrix.hpp>
 
 using namespace cl;
 using tests::at;
@@ -41,11 +40,11 @@ LightDesc sun() {
 TEST_SUITE("servers/visual/frame_builder") {
     TEST_CASE("what is in front of the camera is drawn, what is behind, beside or beyond is not") {
         ServerFixture f;
-        f.place_box(0.0f, 0.0f, 0.0f);     // 10 m ahead
-        f.place_box(0.0f, 0.0f, 20.0f);    // behind
-        f.place_box(200.0f, 0.0f, 0.0f);   // beside
-        f.place_box(0.0f, 0.0f, -200.0f);  // beyond the far plane
-        f.place_box(0.0f, 0.0f, 10.3f);    // around the camera
+        f.place_box(0.0f, 0.0f, 0.0f);    // 10 m ahead
+        f.place_box(0.0f, 0.0f, 20.0f);   // behind
+        f.place_box(200.0f, 0.0f, 0.0f);  // beside
+        f.place_box(0.0f, 0.0f, -200.0f); // beyond the far plane
+        f.place_box(0.0f, 0.0f, 10.3f);   // around the camera
         const std::vector<float> found = depths(f.draw().opaque);
         REQUIRE(found.size() == 2);
         CHECK(found[0] == doctest::Approx(-0.3));
@@ -66,7 +65,8 @@ TEST_SUITE("servers/visual/frame_builder") {
             CameraDesc camera;
             camera.projection = look % 3 == 0 ? Projection::Orthogonal : Projection::Perspective;
             camera.size_m = 30.0f;
-            camera.world_from_camera.basis = basis_from_euler_yxz({angle(random), angle(random), angle(random)});
+            camera.world_from_camera.basis =
+                basis_from_euler_yxz({angle(random), angle(random), angle(random)});
             camera.world_from_camera.origin = {d(random), d(random), d(random)};
             REQUIRE(f.server.camera_set(f.camera, camera));
             const dummy::RecordedFrame& frame = f.draw();
@@ -81,8 +81,10 @@ TEST_SUITE("servers/visual/frame_builder") {
             for (const glm::vec3& origin : origins) {
                 bool visible = false;
                 for (int corner = 0; corner < 8; ++corner) {
-                    const glm::vec3 sign(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f);
-                    const glm::vec4 c = clip_from_world * glm::vec4(origin + sign * glm::vec3(1.0f, 0.5f, 2.0f), 1.0f);
+                    const glm::vec3 sign(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f,
+                                         corner & 4 ? 1.0f : -1.0f);
+                    const glm::vec4 c =
+                        clip_from_world * glm::vec4(origin + sign * glm::vec3(1.0f, 0.5f, 2.0f), 1.0f);
                     visible = visible || (std::abs(c.x) < c.w && std::abs(c.y) < c.w && std::abs(c.z) < c.w);
                 }
                 if (visible) {
@@ -92,7 +94,8 @@ TEST_SUITE("servers/visual/frame_builder") {
         }
     }
 
-    TEST_CASE("hidden, shadows-only and masked-out instances are not drawn; a world of another viewport neither") {
+    TEST_CASE(
+        "hidden, shadows-only and masked-out instances are not drawn; a world of another viewport neither") {
         ServerFixture f;
         const RID hidden = f.place_box(0, 0, 0), shadow = f.place_box(1, 0, 0), layer = f.place_box(2, 0, 0),
                   elsewhere = f.place_box(3, 0, 0);
@@ -112,7 +115,8 @@ TEST_SUITE("servers/visual/frame_builder") {
         CHECK(f.draw().opaque.empty());
     }
 
-    TEST_CASE("the material is the override's, else the instance's for the surface, else the mesh's, else the default") {
+    TEST_CASE("the material is the override's, else the instance's for the surface, else the mesh's, else "
+              "the default") {
         ServerFixture f;
         const auto material = [&f](float roughness) {
             MaterialDesc desc;
@@ -153,7 +157,8 @@ TEST_SUITE("servers/visual/frame_builder") {
         CHECK(drawn(1).is_default);
     }
 
-    TEST_CASE("opaque items come front to back in depth steps, transparent ones by priority, then back to front") {
+    TEST_CASE(
+        "opaque items come front to back in depth steps, transparent ones by priority, then back to front") {
         ServerFixture f;
         MaterialDesc glass;
         glass.transparent = true;
@@ -174,11 +179,13 @@ TEST_SUITE("servers/visual/frame_builder") {
             const int before = frame.transparent_materials[i - 1].render_priority;
             const int now = frame.transparent_materials[i].render_priority;
             CHECK(before <= now);
-            CHECK((before < now || frame.transparent[i - 1].view_depth_m >= frame.transparent[i].view_depth_m));
+            CHECK(
+                (before < now || frame.transparent[i - 1].view_depth_m >= frame.transparent[i].view_depth_m));
         }
     }
 
-    TEST_CASE("each instance gets the first 8 omni and 8 spot lights in pair order; hidden and masked ones do not count") {
+    TEST_CASE("each instance gets the first 8 omni and 8 spot lights in pair order; hidden and masked ones "
+              "do not count") {
         ServerFixture f;
         const RID box = f.place_box(0, 0, 0);
         f.draw();
@@ -392,7 +399,8 @@ TEST_SUITE("servers/visual/frame_builder") {
             }
             const RID mesh = f.mesh();
             for (int i = 0; i < 40; ++i) {
-                f.place(mesh, at(static_cast<float>(i % 7) - 3.0f, static_cast<float>(i % 3), static_cast<float>(-i)));
+                f.place(mesh, at(static_cast<float>(i % 7) - 3.0f, static_cast<float>(i % 3),
+                                 static_cast<float>(-i)));
             }
             return depths(f.draw().opaque);
         };

@@ -33,7 +33,8 @@ struct Pairs {
     }
     RID probe_base() {
         const RID base = storage.gi_probes.make({});
-        REQUIRE(set_probe_data(*storage.gi_probes.get(base), tests::make_probe_data({4, 4, 4}, {}), storage.clock));
+        REQUIRE(set_probe_data(*storage.gi_probes.get(base), tests::make_probe_data({4, 4, 4}, {}),
+                               storage.clock));
         return base;
     }
     RID light_base(LightType type = LightType::Omni, float range_m = 2.0f) {
@@ -57,7 +58,8 @@ using RIDs = std::vector<RID>;
 } // namespace
 
 TEST_SUITE("servers/visual/pairing") {
-    TEST_CASE("of probes that enter together the later ones pair first, wherever the mesh stands in the order") {
+    TEST_CASE(
+        "of probes that enter together the later ones pair first, wherever the mesh stands in the order") {
         for (int mesh_place : {0, 1, 3}) {
             Pairs p;
             RIDs order;
@@ -132,7 +134,8 @@ TEST_SUITE("servers/visual/pairing") {
         CHECK(p.probes(mesh) == RIDs{second, first});
     }
 
-    TEST_CASE("boxes that merely touch pair; a hidden mesh or light pairs too; a directional light never does") {
+    TEST_CASE(
+        "boxes that merely touch pair; a hidden mesh or light pairs too; a directional light never does") {
         Pairs p;
         const RID mesh = p.place(p.box, at(2.5f, 0.0f, 0.0f)); // 2.0 to 3.0
         const RID touching = p.place(p.light_base(LightType::Omni, 2.0f));

@@ -78,7 +78,9 @@ struct History {
 
     explicit History(unsigned seed) : random(seed) {}
 
-    float number(float least, float most) { return std::uniform_real_distribution<float>(least, most)(random); }
+    float number(float least, float most) {
+        return std::uniform_real_distribution<float>(least, most)(random);
+    }
     Transform place() {
         Transform t = at(number(-12, 12), number(-3, 4), number(-5, 5));
         t.basis = basis_from_euler_yxz({number(-2, 2), number(-3, 3), 0.0f});
@@ -135,9 +137,15 @@ struct History {
             light.visible = !light.visible;
             REQUIRE(server.instance_set_visible(light.instance, light.visible));
             return;
-        case 7: light.desc.bake_mode = static_cast<LightBakeMode>(random() % 3); break;
-        case 8: light.desc.color = {number(0, 1), number(0, 1), number(0, 1), 1.0f}; break;
-        default: light.desc = desc(); break;
+        case 7:
+            light.desc.bake_mode = static_cast<LightBakeMode>(random() % 3);
+            break;
+        case 8:
+            light.desc.color = {number(0, 1), number(0, 1), number(0, 1), 1.0f};
+            break;
+        default:
+            light.desc = desc();
+            break;
         }
         REQUIRE(server.light_set(light.light, light.desc));
     }
@@ -149,7 +157,8 @@ struct History {
         REQUIRE(fresh.server.gi_probe_set_dynamic_range(fresh.base, dynamic_range));
         REQUIRE(fresh.server.instance_set_transform(fresh.probe, probe_place));
         for (const LightState& light : final_lights) {
-            REQUIRE(fresh.server.instance_set_visible(fresh.place_light(light.desc, light.place), light.visible));
+            REQUIRE(
+                fresh.server.instance_set_visible(fresh.place_light(light.desc, light.place), light.visible));
         }
         return fresh.texels();
     }
@@ -167,9 +176,14 @@ TEST_SUITE("servers/visual/probe_driver") {
             for (int step = 0; step < steps; ++step) {
                 history.edit();
                 switch (history.random() % 4) { // edits meet the machine in every stage
-                case 0: history.world.draw(); break;
-                case 1: history.world.server.settle(); break;
-                default: break;
+                case 0:
+                    history.world.draw();
+                    break;
+                case 1:
+                    history.world.server.settle();
+                    break;
+                default:
+                    break;
                 }
             }
             const std::vector<uint8_t> texels = history.world.texels();
@@ -214,7 +228,8 @@ TEST_SUITE("servers/visual/probe_driver") {
         }
     }
 
-    TEST_CASE("every directional light and the local ones whose box touches the probe's light it; bake mode counts") {
+    TEST_CASE("every directional light and the local ones whose box touches the probe's light it; bake mode "
+              "counts") {
         const auto texels_with = [](const LightDesc& desc, const Transform& place) {
             ProbeFixture f;
             f.place_light(desc, place);
@@ -292,7 +307,9 @@ TEST_SUITE("servers/visual/probe_driver") {
               "GIProbeData.dynamic_range: expected at least 1, found 0");
         CHECK(refused([](gi::ProbeData& d) { d.bounds.size.y = -1.0f; }) ==
               "GIProbeData.bounds: expected finite numbers and a size that is not negative");
-        CHECK(refused([](gi::ProbeData& d) { d.dynamic_data.resize(20); }).starts_with("dynamic_data: expected"));
+        CHECK(refused([](gi::ProbeData& d) {
+                  d.dynamic_data.resize(20);
+              }).starts_with("dynamic_data: expected"));
         REQUIRE(f.server.gi_probe_set_data(f.base, tests::floor_probe_data()));
         f.texels();
     }

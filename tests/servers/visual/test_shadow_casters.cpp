@@ -61,8 +61,8 @@ TEST_SUITE("servers/visual/shadow_casters") {
 
     TEST_CASE("an omni or spot light has the casters whose box touches its own, a directional one has all") {
         ShadowFixture f;
-        f.place(f.mesh_rid, at(3.5f, 0.0f, 0.0f));  // touches the omni's box
-        f.place(f.mesh_rid, at(3.6f, 3.6f, 0.0f));  // does not
+        f.place(f.mesh_rid, at(3.5f, 0.0f, 0.0f)); // touches the omni's box
+        f.place(f.mesh_rid, at(3.6f, 3.6f, 0.0f)); // does not
         const RID sun = f.place_light(shadowing(LightType::Directional));
         const dummy::RecordedFrame& frame = f.draw();
         REQUIRE(frame.lights.size() == 2);
