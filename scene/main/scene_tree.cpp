@@ -116,6 +116,14 @@ Status SceneTree::draw() {
     return server_->draw();
 }
 
+Status SceneTree::draw_settled() {
+    if (server_) {
+        world_->flush_transforms();
+        server_->settle();
+    }
+    return draw();
+}
+
 void SceneTree::set_paused(bool paused) {
     if (paused_ == paused) {
         return;

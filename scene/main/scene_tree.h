@@ -67,6 +67,9 @@ public:
 
     /// Tells the renderer what changed and draws one frame. Unsupported if the tree has no server.
     Status draw();
+    /// The same, but first lets every GI probe take in the light as it is now: what is drawn does not depend
+    /// on the frames before.
+    Status draw_settled();
 
     // --- groups
     // ---------------------------------------------------------------------------------------------
