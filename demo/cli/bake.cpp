@@ -3,8 +3,9 @@
 #include "demo/cli/scene_loading.h"
 
 #include "scene/3d/gi_probe.h"
-#include "scene/io/project_paths.h"
-#include "scene/io/resource_saver.h"
+#include "scene/io/resource_packer.h"
+#include "scene/io/scene_edit.h"
+#include "scene/io/text_writer.h"
 
 #include "core/io/file.h"
 #include "core/io/log.h"
@@ -54,7 +55,8 @@ private:
 };
 
 /// Writes only what differs from the file that is there. @return whether it wrote.
-Expected<bool> write_if_changed(const std::filesystem::path& path, const std::string& text) {
+Expected<bool> save_if_changed(const scene::GIProbeData& data, const std::filesystem::path& path) {
+    const std::string text = scene::scene_file_text(scene::pack_resource_file(data));
     if (std::filesystem::is_regular_file(path)) {
         const Expected<std::string> before = read_text_file(path);
         if (before && *before == text) {
@@ -72,17 +74,11 @@ struct Baked {
     std::filesystem::path file;
 };
 
-/// Writes one file a probe, and the scene with `--embed`. @return how many files were written.
+/// Writes one file a probe, and its reference into the scene with `--embed`. @return how many files were written.
 Expected<int> write_all(const std::vector<Baked>& baked, const scene::Node& root, const Options& options) {
     int written = 0;
-    std::vector<scene::ProbeDataLink> links;
-    const scene::ProjectPaths paths = scene::ProjectPaths::containing(options.input);
     for (const Baked& b : baked) {
-        const Expected<std::string> text = scene::resource_text(*b.probe->data());
-        if (!text) {
-            return text.error();
-        }
-        const Expected<bool> wrote = write_if_changed(b.file, *text);
+        const Expected<bool> wrote = save_if_changed(*b.probe->data(), b.file);
         if (!wrote) {
             return wrote.error();
         }
@@ -90,18 +86,15 @@ Expected<int> write_all(const std::vector<Baked>& baked, const scene::Node& root
             ++written;
             log_info(b.file.string());
         }
-        links.push_back({path_from_root(root, *b.probe), paths.resource_path_of(b.file)});
-    }
-    if (options.embed) {
-        const Expected<std::string> text = scene::scene_text_with_probe_data(options.input, links);
-        if (!text) {
-            return text.error();
+        if (!options.embed) {
+            continue;
         }
-        const Expected<bool> wrote = write_if_changed(options.input, *text);
-        if (!wrote) {
-            return wrote.error();
+        const Expected<bool> embedded =
+            scene::embed_probe_data(options.input, path_from_root(root, *b.probe), b.file);
+        if (!embedded) {
+            return embedded.error();
         }
-        written += *wrote ? 1 : 0;
+        written += *embedded ? 1 : 0;
     }
     return written;
 }
