@@ -1,17 +1,19 @@
 #include "servers/mesh_surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include <fmt/format.h>
-
 namespace cl {
 
 namespace {
 
-constexpr bool has(uint32_t format, uint32_t bit) { return (format & bit) != 0; }
+constexpr bool has(uint32_t format, uint32_t bit) {
+    return (format & bit) != 0;
+}
 constexpr bool is_compressed(uint32_t format, uint32_t bit) {
     return has(format, bit << surface_format::kCompressShift);
 }
@@ -21,17 +23,25 @@ int array_size(uint32_t format, uint32_t bit) noexcept {
     using namespace surface_format;
     const bool compressed = is_compressed(format, bit);
     switch (bit) {
-    case kVertex: return has(format, k2D) ? (compressed ? 4 : 8) : (compressed ? 8 : 12);
-    case kNormal: return compressed ? 4 : 12;
+    case kVertex:
+        return has(format, k2D) ? (compressed ? 4 : 8) : (compressed ? 8 : 12);
+    case kNormal:
+        return compressed ? 4 : 12;
     case kUV:
-    case kUV2: return compressed ? 4 : 8;
-    case kBones: return has(format, k16BitBones) ? 8 : 4; // its compressed bit is unused
-    case kWeights: return compressed ? 8 : 16;
-    default: return compressed ? 4 : 16; // tangent, colour
+    case kUV2:
+        return compressed ? 4 : 8;
+    case kBones:
+        return has(format, k16BitBones) ? 8 : 4; // its compressed bit is unused
+    case kWeights:
+        return compressed ? 8 : 16;
+    default:
+        return compressed ? 4 : 16; // tangent, colour
     }
 }
 
-Error parse_error(std::string message) { return {ErrorCode::ParseError, "surface: " + std::move(message)}; }
+Error parse_error(std::string message) {
+    return {ErrorCode::ParseError, "surface: " + std::move(message)};
+}
 
 template <typename Index>
 Status check_index_range(const MeshSurface& surface) {
@@ -91,8 +101,8 @@ Status validate_surface(const MeshSurface& surface) {
     const VertexLayout layout = vertex_layout(surface.format);
     const uint64_t vertex_bytes = uint64_t(layout.stride) * surface.vertex_count;
     if (surface.vertices.size() != vertex_bytes) {
-        return parse_error(fmt::format("expected {} vertices of {} bytes, found {} bytes", surface.vertex_count,
-                                       layout.stride, surface.vertices.size()));
+        return parse_error(fmt::format("expected {} vertices of {} bytes, found {} bytes",
+                                       surface.vertex_count, layout.stride, surface.vertices.size()));
     }
     const int index_size = surface.vertex_count < 65536 ? 2 : 4;
     if (surface.indices.size() != uint64_t(index_size) * surface.index_count) {
@@ -127,8 +137,8 @@ uint16_t half_from_float_truncated(float v) noexcept {
     std::memcpy(&bits, &v, sizeof bits);
     const uint32_t sign = (bits >> 16) & 0x8000u;
     const uint32_t magnitude = bits & 0x7FFFFFFFu;
-    constexpr uint32_t kInfinity = 0x7F800000u;   // float
-    constexpr uint32_t kTwoTo16 = 0x47800000u;    // 65536.0f
+    constexpr uint32_t kInfinity = 0x7F800000u; // float
+    constexpr uint32_t kTwoTo16 = 0x47800000u;  // 65536.0f
     constexpr uint32_t kTwoToMinus14 = 0x38800000u;
     if (magnitude > kInfinity) {
         return uint16_t(sign | 0x7E00u);

@@ -1,6 +1,5 @@
-#include "servers/gi/relight.h"
-
 #include "servers/gi/cell_words.h"
+#include "servers/gi/relight.h"
 
 namespace cl::gi {
 
@@ -16,7 +15,8 @@ public:
         for (uint32_t slot = 0; slot < 8; ++slot) {
             const uint32_t child = layout_.cells[index].children[slot];
             if (child != kNoChild) {
-                visit(child, level + 1, origin + child_size * glm::uvec3(slot & 1, (slot >> 1) & 1, slot >> 2));
+                visit(child, level + 1,
+                      origin + child_size * glm::uvec3(slot & 1, (slot >> 1) & 1, slot >> 2));
             }
         }
         layout_.voxels[index] = glm::u16vec3(origin >> uint32_t(layout_.levels - 1 - level));

@@ -13,9 +13,13 @@ uint32_t byte_of(Real v) {
     return v > Real(0) ? uint32_t(std::min(v, Real(255))) : 0u;
 }
 
-uint32_t packed(uint32_t a, uint32_t b, uint32_t c) { return (a << 16) | (b << 8) | c; }
+uint32_t packed(uint32_t a, uint32_t b, uint32_t c) {
+    return (a << 16) | (b << 8) | c;
+}
 
-uint32_t channel(uint32_t word, int shift) { return (word >> shift) & 255u; }
+uint32_t channel(uint32_t word, int shift) {
+    return (word >> shift) & 255u;
+}
 
 } // namespace
 
@@ -34,8 +38,9 @@ uint32_t encode_emission(const glm::vec3& emission) noexcept {
     if (!(length > 0.0f)) {
         return 0;
     }
-    const uint32_t direction = packed(byte_of(emission.x / length * 255.0f), byte_of(emission.y / length * 255.0f),
-                                      byte_of(emission.z / length * 255.0f));
+    const uint32_t direction =
+        packed(byte_of(emission.x / length * 255.0f), byte_of(emission.y / length * 255.0f),
+               byte_of(emission.z / length * 255.0f));
     return (direction << 8) | byte_of(std::min(length / 8.0f, 1.0f) * 255.0f);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include <glm/ext/vector_uint3_sized.hpp>
 #include <glm/vec3.hpp>
+
+#include <cstdint>
 
 namespace cl::gi {
 

@@ -33,7 +33,7 @@ struct Taps {
 Taps taps_at(int target, int source_size, int target_size) {
     const double factor = double(source_size) / double(target_size);
     const double place = target * factor - 0.5; // no half-texel term on the target's side: content shifts
-    const int whole = int(place);               // toward zero, so that the fraction is negative at the first texel
+    const int whole = int(place); // toward zero, so that the fraction is negative at the first texel
     const double fraction = place - whole;
     Taps taps{};
     for (int i = 0; i < kTaps; ++i) {
@@ -70,7 +70,8 @@ Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
             for (size_t n = 0; n < kTaps; ++n) {
                 for (size_t m = 0; m < kTaps; ++m) {
                     const double weight = rows.weight[n] * column.weight[m];
-                    const size_t at = size_t(rows.source[n]) * size_t(image.size.x) + size_t(column.source[m]);
+                    const size_t at =
+                        size_t(rows.source[n]) * size_t(image.size.x) + size_t(column.source[m]);
                     for (size_t c = 0; c < 4; ++c) {
                         sum[c] += image.data[at * 4 + c] * weight;
                     }

@@ -12,10 +12,14 @@ namespace {
 
 constexpr size_t kGrain = 4096;
 
-Energy clamped(int32_t energy) { return Energy(std::clamp(energy, 0, 65535)); }
+Energy clamped(int32_t energy) {
+    return Energy(std::clamp(energy, 0, 65535));
+}
 
 /// Rounds halves away from zero; what is negative or NaN (propagation beyond 1) gives 0.
-Energy rounded(float energy) { return energy > 0.0f ? Energy(std::min(energy + 0.5f, 65535.0f)) : Energy(0); }
+Energy rounded(float energy) {
+    return energy > 0.0f ? Energy(std::min(energy + 0.5f, 65535.0f)) : Energy(0);
+}
 
 void downsample_cell(const CellLayout& layout, uint32_t index, float propagation, std::vector<Energy>& rgb) {
     float sum[3] = {0.0f, 0.0f, 0.0f};

@@ -7,17 +7,23 @@ namespace cl::gi {
 
 namespace {
 
-/// Beyond these the box arithmetic in float32 loses its cells (denormals) or overflows (products of coordinates).
+/// Beyond these the box arithmetic in float32 loses its cells (denormals) or overflows (products of
+/// coordinates).
 constexpr float kMinExtent_m = 1e-6f;
 constexpr float kMaxExtent_m = 1e9f;
 
 int levels_of(int subdivision) {
     switch (subdivision) {
-    case 64: return 7;
-    case 128: return 8;
-    case 256: return 9;
-    case 512: return 10;
-    default: return 0;
+    case 64:
+        return 7;
+    case 128:
+        return 8;
+    case 256:
+        return 9;
+    case 512:
+        return 10;
+    default:
+        return 0;
     }
 }
 
@@ -40,8 +46,8 @@ int cells_along(float size_m, float longest_m, int subdivision) {
     return cells;
 }
 
-/// scale(N) * inverse(translate(position) * scale(longest)) in the float32 steps that Godot takes, so that the last
-/// bit is Godot's too: an inverse by cofactors over the determinant.
+/// scale(N) * inverse(translate(position) * scale(longest)) in the float32 steps that Godot takes, so that
+/// the last bit is Godot's too: an inverse by cofactors over the determinant.
 Transform make_cells_from_local(const glm::vec3& position, float longest_m, int subdivision) {
     const float cofactor = longest_m * longest_m;
     const float inverse_scale = cofactor * (1.0f / (longest_m * cofactor));
@@ -62,8 +68,9 @@ Expected<Grid> compute_grid(const glm::vec3& extents_m, int subdivision) {
     }
     for (int i = 0; i < 3; ++i) {
         if (!(extents_m[i] >= kMinExtent_m && extents_m[i] <= kMaxExtent_m)) {
-            return Error{ErrorCode::InvalidArgument, fmt::format("extents: expected {} in 1e-6 to 1e9, found {}",
-                                                                 "xyz"[i], extents_m[i])};
+            return Error{
+                ErrorCode::InvalidArgument,
+                fmt::format("extents: expected {} in 1e-6 to 1e9, found {}", "xyz"[i], extents_m[i])};
         }
     }
     const glm::vec3 size = 2.0f * extents_m;

@@ -1,19 +1,20 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace cl::gi {
 
-/// Which cells of a grid are leaves: one bit each, 64 neighbours (4 x 4 x 4) to a word, so that a ray's next steps
-/// mostly read the word it has just read. 16 MiB at 512^3.
+/// Which cells of a grid are leaves: one bit each, 64 neighbours (4 x 4 x 4) to a word, so that a ray's next
+/// steps mostly read the word it has just read. 16 MiB at 512^3.
 class LeafBitmap {
 public:
     LeafBitmap() = default;
     explicit LeafBitmap(const glm::ivec3& dims)
-        : dims_(dims), words_x_((uint32_t(dims.x) + 3) / 4), words_xy_(words_x_ * ((uint32_t(dims.y) + 3) / 4)),
+        : dims_(dims), words_x_((uint32_t(dims.x) + 3) / 4),
+          words_xy_(words_x_ * ((uint32_t(dims.y) + 3) / 4)),
           words_(size_t(words_xy_) * ((uint32_t(dims.z) + 3) / 4)) {}
 
     void add(uint32_t x, uint32_t y, uint32_t z) noexcept { words_[word(x, y, z)] |= bit(x, y, z); }
@@ -24,7 +25,8 @@ public:
             uint32_t(z) >= uint32_t(dims_.z)) {
             return false;
         }
-        return (words_[word(uint32_t(x), uint32_t(y), uint32_t(z))] & bit(uint32_t(x), uint32_t(y), uint32_t(z))) != 0;
+        return (words_[word(uint32_t(x), uint32_t(y), uint32_t(z))] &
+                bit(uint32_t(x), uint32_t(y), uint32_t(z))) != 0;
     }
 
 private:

@@ -20,13 +20,9 @@ struct LeafBox {
     float size_m = 0.0f;
 };
 
-/// Samples a triangle on the 4 x 4 columns of a leaf that it touches and adds the result (spec gi-bake section 5).
-/// float32 throughout, in the specification's order. @param surface  the triangle's own.
-void plot_leaf(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface, LeafSum& sum) noexcept;
-
-/// The point of a triangle nearest to p. Where v[1] == v[2] it may be NaN, and its consumer takes vertex 0 then: cells
-/// at the pole of a sphere, whose last triangles are such, are Godot's only so.
-/// Source: Eberly, "Distance Between Point and Triangle in 3D" (geometrictools.com), regions 0 to 6.
-[[nodiscard]] glm::vec3 closest_point_of_triangle(const glm::vec3 (&v)[3], const glm::vec3& p) noexcept;
+/// Samples a triangle on the 4 x 4 columns of a leaf that it touches and adds the result (spec gi-bake
+/// section 5). float32 throughout, in the specification's order. @param surface  the triangle's own.
+void plot_leaf(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
+               LeafSum& sum) noexcept;
 
 } // namespace cl::gi

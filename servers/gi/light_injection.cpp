@@ -1,7 +1,6 @@
 // One light's bounce at every leaf it reaches (spec gi-update section 5).
-#include "servers/gi/relight.h"
-
 #include "servers/gi/light_march.h"
+#include "servers/gi/relight.h"
 
 #include "core/assert.h"
 #include "core/threads.h"
@@ -23,8 +22,12 @@ constexpr float kTowardLight = 0.47f;
 
 constexpr double kMaxEnergy = double(1 << 24);
 
-float dot(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-float length(const glm::vec3& v) { return std::sqrt(dot(v, v)); }
+float dot(const glm::vec3& a, const glm::vec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+float length(const glm::vec3& v) {
+    return std::sqrt(dot(v, v));
+}
 glm::vec3 normalized_or_zero(const glm::vec3& v) {
     const float l = length(v);
     return l > 0.0f ? v / l : glm::vec3(0.0f);
@@ -34,7 +37,9 @@ glm::vec3 signs(const glm::vec3& v) {
     return {v.x < 0.0f ? -1.0f : 1.0f, v.y < 0.0f ? -1.0f : 1.0f, v.z < 0.0f ? -1.0f : 1.0f};
 }
 /// b^e, without the call for the usual exponent, whose result is b.
-float power(float base, float exponent) { return exponent == 1.0f ? base : std::pow(base, exponent); }
+float power(float base, float exponent) {
+    return exponent == 1.0f ? base : std::pow(base, exponent);
+}
 
 /// Truncates toward zero and keeps sums far from overflow; NaN gives 0.
 int32_t truncated(double v) {
@@ -48,11 +53,11 @@ struct Arrival {
 };
 
 /// A march that starts whole steps before `to`. @param extra_step  sun rays start one step farther out.
-March whole_steps(const glm::ivec3& dims, const glm::vec3& direction, const glm::vec3& from, const glm::vec3& to,
-                  float extra_step) {
+March whole_steps(const glm::ivec3& dims, const glm::vec3& direction, const glm::vec3& from,
+                  const glm::vec3& to, float extra_step) {
     const float step = advance_of(direction);
-    // Clipped, a ray is no longer than the grid's diagonal and its margins. Where float32 cannot clip (a light 1e9
-    // cells away) this keeps the march short.
+    // Clipped, a ray is no longer than the grid's diagonal and its margins. Where float32 cannot clip (a
+    // light 1e9 cells away) this keeps the march short.
     const float longest = 1.1f * length(glm::vec3(dims)) + 8.0f;
     float distance = std::min(length(to - clipped_start(dims, direction, from, to)), longest);
     distance += extra_step * step - remainder_of(distance, step);
@@ -104,7 +109,8 @@ public:
             return std::nullopt;
         }
         const float cone = light_.type == LightType::Spot ? cone_share(direction) : 1.0f;
-        const float attenuation = facing * power(1.0f - std::clamp(reach / range_, 0.0f, 1.0f), light_.attenuation);
+        const float attenuation =
+            facing * power(1.0f - std::clamp(reach / range_, 0.0f, 1.0f), light_.attenuation);
         if (cone < 0.0f) {
             return std::nullopt;
         }
@@ -119,7 +125,8 @@ private:
         if (angle_deg > light_.spot_angle_deg) {
             return -1.0f;
         }
-        return power(1.0f - std::clamp(angle_deg / light_.spot_angle_deg, 0.0f, 1.0f), light_.spot_attenuation);
+        return power(1.0f - std::clamp(angle_deg / light_.spot_angle_deg, 0.0f, 1.0f),
+                     light_.spot_attenuation);
     }
 
     glm::ivec3 dims_;
@@ -151,7 +158,8 @@ void inject(const CellLayout& layout, const Light& light, const glm::ivec3& ligh
                 continue;
             }
             const glm::ivec3 energy = reflected(light_color, arrival->attenuation, leaf.albedo);
-            if (energy == glm::ivec3(0) || !reaches(layout.leaf_bitmap, arrival->march, glm::ivec3(leaf.voxel))) {
+            if (energy == glm::ivec3(0) ||
+                !reaches(layout.leaf_bitmap, arrival->march, glm::ivec3(leaf.voxel))) {
                 continue;
             }
             for (size_t c = 0; c < 3; ++c) {
@@ -161,17 +169,21 @@ void inject(const CellLayout& layout, const Light& light, const glm::ivec3& ligh
     });
 }
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 bool is_usable(const CachedLight& l) {
-    return is_finite(l.cells_from_light.basis[2]) && is_finite(l.cells_from_light.origin) && is_finite(l.color) &&
-           std::isfinite(l.energy) && std::isfinite(l.range_m) && std::isfinite(l.attenuation) &&
-           std::isfinite(l.spot_angle_deg) && std::isfinite(l.spot_attenuation);
+    return is_finite(l.cells_from_light.basis[2]) && is_finite(l.cells_from_light.origin) &&
+           is_finite(l.color) && std::isfinite(l.energy) && std::isfinite(l.range_m) &&
+           std::isfinite(l.attenuation) && std::isfinite(l.spot_angle_deg) &&
+           std::isfinite(l.spot_attenuation);
 }
 
 } // namespace
 
-void inject_light(const CellLayout& layout, const CachedLight& light, int sign, std::span<int32_t> leaf_energies) {
+void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
+                  std::span<int32_t> leaf_energies) {
     CL_ASSERT(sign == 1 || sign == -1, "a light comes or goes");
     CL_ASSERT(leaf_energies.size() == layout.leaves.size() * 3, "three energies a leaf");
     if (!light.visible || !is_usable(light)) {

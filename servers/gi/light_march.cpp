@@ -6,7 +6,9 @@ namespace cl::gi {
 
 namespace {
 
-float4 lanes(const glm::vec3& v) { return float4{v.x, v.y, v.z, 0.0f}; }
+float4 lanes(const glm::vec3& v) {
+    return float4{v.x, v.y, v.z, 0.0f};
+}
 
 /// Rounds toward minus infinity; |v| < 2^31.
 int4 floored(float4 v) {

@@ -7,20 +7,21 @@
 
 namespace cl::gi {
 
-/// A straight walk through the cells of a grid toward a leaf, one voxel of the dominant axis a step (spec gi-update
-/// section 5.1). All in cells of the grid.
+/// A straight walk through the cells of a grid toward a leaf, one voxel of the dominant axis a step (spec
+/// gi-update section 5.1). All in cells of the grid.
 struct March {
     glm::vec3 from{0.0f};
     glm::vec3 direction{0.0f}; ///< unit length, toward the leaf
     float distance = 0.0f;
-    float step = 0.0f;         ///< advance_of(direction)
+    float step = 0.0f; ///< advance_of(direction)
 };
 
 /// Length of a step that moves by one voxel along the dominant axis: 1 / its magnitude.
 [[nodiscard]] float advance_of(const glm::vec3& direction) noexcept;
 
-/// Moves the start of the segment from..to along it to just outside the grid (planes at -1 and dims + 1), where it is
-/// farther out. The planes are those of this direction alone (section 5.4 tells what happens otherwise).
+/// Moves the start of the segment from..to along it to just outside the grid (planes at -1 and dims + 1),
+/// where it is farther out. The planes are those of this direction alone (section 5.4 tells what happens
+/// otherwise).
 [[nodiscard]] glm::vec3 clipped_start(const glm::ivec3& dims, const glm::vec3& direction, glm::vec3 from,
                                       const glm::vec3& to) noexcept;
 

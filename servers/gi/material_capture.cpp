@@ -5,7 +5,9 @@ namespace cl::gi {
 
 namespace {
 
-bool has_pixels(const Image& image) { return image.size.x > 0 && image.size.y > 0 && !image.data.empty(); }
+bool has_pixels(const Image& image) {
+    return image.size.x > 0 && image.size.y > 0 && !image.data.empty();
+}
 
 /// The texture's kCaptureSize^2 texels, rgb in [0, 1].
 std::vector<glm::vec3> captured_texels(const Image& texture) {

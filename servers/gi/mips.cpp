@@ -29,11 +29,10 @@ uint8_t encoded(Energy energy, uint32_t dynamic_range) {
     return uint8_t(std::min((energy / dynamic_range) >> 2, 255u));
 }
 
-void encode_cell(const CellLayout& layout, const CellEnergies& energies, uint32_t index, uint32_t dynamic_range,
-                 MipLevel& level) {
+void encode_cell(const CellLayout& layout, const CellEnergies& energies, uint32_t index,
+                 uint32_t dynamic_range, MipLevel& level) {
     const glm::u16vec3 voxel = layout.voxels[index];
-    const size_t texel =
-        (size_t(voxel.z) * size_t(level.size.y) + voxel.y) * size_t(level.size.x) + voxel.x;
+    const size_t texel = (size_t(voxel.z) * size_t(level.size.y) + voxel.y) * size_t(level.size.x) + voxel.x;
     uint8_t* rgba = level.rgba8.data() + texel * 4;
     for (size_t c = 0; c < 3; ++c) {
         rgba[c] = encoded(energies.rgb[size_t(index) * 3 + c], dynamic_range);

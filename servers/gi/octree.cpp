@@ -1,9 +1,9 @@
 // The ints of GIProbeData.dynamic_data (spec gi-probe-data section 5).
 #include "servers/gi/probe_data.h"
 
-#include <cstring>
-
 #include <fmt/format.h>
+
+#include <cstring>
 
 namespace cl::gi {
 
@@ -17,7 +17,9 @@ Error parse_error(std::string message) {
     return {ErrorCode::ParseError, "dynamic_data: " + std::move(message)};
 }
 
-bool is_power_of_two(int64_t v) { return v > 0 && (v & (v - 1)) == 0; }
+bool is_power_of_two(int64_t v) {
+    return v > 0 && (v & (v - 1)) == 0;
+}
 
 /// The header's fields as the unsigned numbers they are.
 struct Header {
@@ -45,8 +47,9 @@ Status check_header(const Header& h, size_t int_count) {
     return {};
 }
 
-/// Checks cells in the order of the array. Children come after their parent, so when a cell is reached, its own
-/// parent has already said where it lies: one pass, no recursion, and a cycle shows as a child that is not later.
+/// Checks cells in the order of the array. Children come after their parent, so when a cell is reached, its
+/// own parent has already said where it lies: one pass, no recursion, and a cycle shows as a child that is
+/// not later.
 class CellChecker {
 public:
     CellChecker(const Octree& octree) : octree_(octree), place_(octree.cells.size()) {
@@ -60,7 +63,8 @@ public:
             }
         }
         if (leaves_ != octree_.leaf_count) {
-            return parse_error(fmt::format("expected {} leaves in int 6, found {}", leaves_, octree_.leaf_count));
+            return parse_error(
+                fmt::format("expected {} leaves in int 6, found {}", leaves_, octree_.leaf_count));
         }
         return {};
     }
@@ -80,7 +84,8 @@ private:
         }
         const uint32_t level = octree_.cells[index].level_alpha >> 16;
         if (level != place.level) {
-            return parse_error(fmt::format("expected level {} of cell {}, found {}", place.level, index, level));
+            return parse_error(
+                fmt::format("expected level {} of cell {}, found {}", place.level, index, level));
         }
         const bool is_leaf = int(level) == octree_.levels - 1;
         leaves_ += is_leaf ? 1 : 0;
@@ -107,7 +112,8 @@ private:
         }
         Place& place = place_[child];
         if (place.has_parent) {
-            return parse_error(fmt::format("expected one parent of cell {}, found a second, cell {}", child, parent));
+            return parse_error(
+                fmt::format("expected one parent of cell {}, found a second, cell {}", child, parent));
         }
         place.has_parent = true;
         place.level = uint8_t(place_[parent].level + 1);

@@ -11,7 +11,9 @@ namespace cl::gi {
 namespace {
 
 /// Leaf cells along half a child's parent, i.e. along a child of a cell at `level`.
-int child_cells(const Grid& grid, int level) { return 1 << (grid.levels - 2 - level); }
+int child_cells(const Grid& grid, int level) {
+    return 1 << (grid.levels - 2 - level);
+}
 
 /// Fix-up and quantisation of one leaf (spec gi-bake section 6).
 Cell leaf_cell(int level, const LeafSum& sum) {
@@ -55,8 +57,8 @@ Octants octants_of(const Grid& grid, const CellBox& parent) noexcept {
             boxes.center[axis][slot % 4] = child.position[axis] + half;
             boxes.half[axis][slot % 4] = half;
         }
-        const bool inside = child.origin.x < grid.dims.x && child.origin.y < grid.dims.y &&
-                            child.origin.z < grid.dims.z;
+        const bool inside =
+            child.origin.x < grid.dims.x && child.origin.y < grid.dims.y && child.origin.z < grid.dims.z;
         octants.inside = uint8_t(octants.inside | (inside ? 1 << slot : 0));
     }
     return octants;

@@ -3,22 +3,22 @@
 #include "servers/gi/plot_triangle.h"
 #include "servers/gi/triangle_box.h"
 
+#include <glm/vec3.hpp>
+
 #include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 namespace cl::gi {
 
-/// A cell on the way down the tree: a cube, probe-local. Positions add up in float32 from the root (spec gi-bake
-/// section 4.2), so a cell's box is reached through its ancestors only.
+/// A cell on the way down the tree: a cube, probe-local. Positions add up in float32 from the root (spec
+/// gi-bake section 4.2), so a cell's box is reached through its ancestors only.
 struct CellBox {
     glm::vec3 position{0.0f}; ///< least corner [m]
     float size_m = 0.0f;
     int level = 0;
-    glm::ivec3 origin{0};     ///< [leaf cells]
+    glm::ivec3 origin{0}; ///< [leaf cells]
 };
 [[nodiscard]] CellBox root_cell(const Grid& grid) noexcept;
 /// @param slot  0 to 7; bit 0 is the +x half, bit 1 +y, bit 2 +z.
@@ -48,17 +48,17 @@ struct BakeControl {
 /// A cell without children, colours or opacity.
 [[nodiscard]] Cell empty_cell(int level) noexcept;
 
-/// Builds the subtree below one cell. Triangles go down the tree together, as a list that each cell filters for its
-/// children, so every leaf is finished in one visit and needs no accumulator; the tests made, the order of sums in a
-/// leaf, and hence every bit, are those of descending triangle after triangle.
+/// Builds the subtree below one cell. Triangles go down the tree together, as a list that each cell filters
+/// for its children, so every leaf is finished in one visit and needs no accumulator; the tests made, the
+/// order of sums in a leaf, and hence every bit, are those of descending triangle after triangle.
 class SubtreeBuilder {
 public:
     SubtreeBuilder(const Grid& grid, std::span<const PlotSurface> surfaces,
                    std::span<const PlotTriangle> triangles, BakeControl& control)
         : grid_(grid), surfaces_(surfaces), triangles_(triangles), control_(control) {}
 
-    /// Appends the cell and all below it to cells(), parents first, slots in order; child indices count from the
-    /// start of cells(). Stops early, with an unusable result, once control.stop is set.
+    /// Appends the cell and all below it to cells(), parents first, slots in order; child indices count from
+    /// the start of cells(). Stops early, with an unusable result, once control.stop is set.
     /// @param touching  triangles that touch the cell, ascending. @return the cell's alpha.
     float build(const CellBox& box, std::span<const uint32_t> touching);
 

@@ -2,10 +2,10 @@
 
 #include "servers/gi/triangle_box.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+
+#include <cmath>
 
 namespace cl::gi {
 
@@ -14,9 +14,13 @@ namespace {
 constexpr size_t kMaxTriangles = size_t(1) << 31;
 constexpr float kMaxCoordinate_m = 1e12f;
 
-size_t corner_count(const PlotSurface& s) { return s.indices.empty() ? s.positions.size() : s.indices.size(); }
+size_t corner_count(const PlotSurface& s) {
+    return s.indices.empty() ? s.positions.size() : s.indices.size();
+}
 
-bool fits_capture(size_t texels) { return texels == 1 || texels == size_t(kCaptureSize) * kCaptureSize; }
+bool fits_capture(size_t texels) {
+    return texels == 1 || texels == size_t(kCaptureSize) * kCaptureSize;
+}
 
 Error invalid(size_t surface, const std::string& message) {
     return {ErrorCode::InvalidArgument, fmt::format("plot surface {}: {}", surface, message)};
@@ -35,7 +39,8 @@ Status check_surface(const PlotSurface& s, size_t number) {
             return invalid(number, fmt::format("expected indices below {}, found {}", n, index));
         }
     }
-    if (!s.material || !fits_capture(s.material->albedo.size()) || !fits_capture(s.material->emission.size())) {
+    if (!s.material || !fits_capture(s.material->albedo.size()) ||
+        !fits_capture(s.material->emission.size())) {
         return invalid(number, "expected a material of 1 or 16384 texels, found none or other sizes");
     }
     return {};
@@ -105,7 +110,8 @@ void collect_surface(const PlotSurface& s, uint32_t number, const Boxes<float>& 
 
 } // namespace
 
-Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces, const AABB& box) {
+Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces,
+                                                      const AABB& box) {
     const glm::vec3 half = box.size * 0.5f;
     const glm::vec3 center = box.position + half;
     const Boxes<float> boxes{{center.x, center.y, center.z}, {half.x, half.y, half.z}};

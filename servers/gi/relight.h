@@ -4,21 +4,21 @@
 #include "servers/gi/probe_data.h"
 #include "servers/render_types.h"
 
+#include <glm/ext/vector_uint3_sized.hpp>
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <glm/ext/vector_uint3_sized.hpp>
-#include <glm/vec3.hpp>
 
 namespace cl::gi {
 
 /// What relighting reads of a light (spec gi-update section 4); compared exactly, field by field.
 struct CachedLight {
     LightType type = LightType::Omni;
-    Transform cells_from_light;      ///< L2C * light global
-    glm::vec3 color{1.0f};           ///< sRGB-encoded numbers, used as they are
-    float energy = 1.0f;             ///< light_energy * light_indirect_energy
+    Transform cells_from_light; ///< L2C * light global
+    glm::vec3 color{1.0f};      ///< sRGB-encoded numbers, used as they are
+    float energy = 1.0f;        ///< light_energy * light_indirect_energy
     float range_m = 5.0f;
     float attenuation = 1.0f;
     float spot_angle_deg = 45.0f;
@@ -57,18 +57,18 @@ struct CellEnergies {
 /// Emission as energy of each leaf [3 per leaf]: where the sums of inject_light() start (section 3, step 2).
 [[nodiscard]] std::vector<int32_t> emission_energies(const CellLayout& layout);
 
-/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5). An invisible light, and one whose numbers
-/// are not finite, reaches none.
-/// Sums are int32 and exact, so removing a light restores the numbers from before it came; one light adds at most
-/// 2^24 (radiance 16384), so that more than a hundred of the strongest fit. The result is the same for any number of
-/// threads.
+/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5). An invisible
+/// light, and one whose numbers are not finite, reaches none. Sums are int32 and exact, so removing a light
+/// restores the numbers from before it came; one light adds at most 2^24 (radiance 16384), so that more than
+/// a hundred of the strongest fit. The result is the same for any number of threads.
 /// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
-/// Departs from Godot: the clip planes are reset for each leaf, so no light passes walls (section 5.4), and a leaf
-/// exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
-void inject_light(const CellLayout& layout, const CachedLight& light, int sign, std::span<int32_t> leaf_energies);
+/// Departs from Godot: the clip planes are reset for each leaf, so no light passes walls (section 5.4), and a
+/// leaf exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
+void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
+                  std::span<int32_t> leaf_energies);
 
-/// Energies of every cell from the leaves' sums (clamped to 0..65535 here, where Godot wraps), down-sampled level
-/// by level (section 6). The same bytes for any history of light edits.
+/// Energies of every cell from the leaves' sums (clamped to 0..65535 here, where Godot wraps), down-sampled
+/// level by level (section 6). The same bytes for any history of light edits.
 /// @param leaf_energies  3 per leaf, unclamped sums of emission and lights, kept between calls.
 /// @param propagation    0: mean over eight children, empty ones black; 1: mean over those that exist.
 void energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies, float propagation,
@@ -83,7 +83,8 @@ struct MipLevel {
 [[nodiscard]] int mip_count(const glm::ivec3& dims) noexcept;
 /// rgb = energy / dynamic range, a = opacity (section 7): the bytes of every level of the texture.
 /// @param dynamic_range  less than 1 counts as 1.
-/// @param levels  empty, or as a former call for the same layout left them: then only occupied texels are written,
+/// @param levels  empty, or as a former call for the same layout left them: then only occupied texels are
+/// written,
 ///                which is most of the saving of a relight.
 void encode_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
                  std::vector<MipLevel>& levels);

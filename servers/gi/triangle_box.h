@@ -45,13 +45,13 @@ inline auto separated_by_box_axis(const Boxes<F>& boxes, const CenteredTriangle<
     return either(either(on(0), on(1)), on(2));
 }
 
-/// True where the cross product of an edge and a coordinate axis separates (rule 1). All three axes are one formula
-/// with the coordinates rotated: only signs differ from the specification's, and the interval test is symmetric in
-/// them. Edge and axis are template arguments so that every index below is a constant.
+/// True where the cross product of an edge and a coordinate axis separates (rule 1). All three axes are one
+/// formula with the coordinates rotated: only signs differ from the specification's, and the interval test is
+/// symmetric in them. Edge and axis are template arguments so that every index below is a constant.
 template <int edge, int k, typename F>
 inline auto separated_by_edge_axis(const Boxes<F>& boxes, const CenteredTriangle<F>& t) noexcept {
-    // Which two vertices span the projection. Any pair but the edge's own ends would do in exact arithmetic; which
-    // one it is decides the last bit.
+    // Which two vertices span the projection. Any pair but the edge's own ends would do in exact arithmetic;
+    // which one it is decides the last bit.
     constexpr int kPair[3][3][2] = {
         {{0, 2}, {0, 2}, {0, 1}}, // x: edges 0, 1, 2
         {{0, 2}, {0, 2}, {0, 1}}, // y
@@ -70,8 +70,9 @@ inline auto separated_by_edge_axis(const Boxes<F>& boxes, const CenteredTriangle
 
 template <int edge, typename F>
 inline auto separated_by_edge(const Boxes<F>& boxes, const CenteredTriangle<F>& t) noexcept {
-    return either(either(separated_by_edge_axis<edge, 0>(boxes, t), separated_by_edge_axis<edge, 1>(boxes, t)),
-                  separated_by_edge_axis<edge, 2>(boxes, t));
+    return either(
+        either(separated_by_edge_axis<edge, 0>(boxes, t), separated_by_edge_axis<edge, 1>(boxes, t)),
+        separated_by_edge_axis<edge, 2>(boxes, t));
 }
 
 /// True where the triangle's plane misses the box (rule 3).
@@ -94,7 +95,8 @@ inline auto separated_by_plane(const Boxes<F>& boxes, const CenteredTriangle<F>&
     return either(near_distance > F{}, far_distance < F{});
 }
 
-/// True (or -1) where the triangle does not touch the box: the separating-axis test of spec gi-bake section 4.1.
+/// True (or -1) where the triangle does not touch the box: the separating-axis test of spec gi-bake
+/// section 4.1.
 template <typename F>
 inline auto separated(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
     const CenteredTriangle<F> t = centered(boxes, vertices);

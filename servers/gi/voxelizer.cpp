@@ -7,13 +7,13 @@
 
 #include "core/threads.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <new>
 #include <numeric>
-
-#include <fmt/format.h>
 
 namespace cl::gi {
 
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    // --- the top of the tree ------------------------------------------------------------------------------------
+    // --- the top of the tree ---
 
     void make_top() {
         TopCell root{root_cell(grid_), std::vector<uint32_t>(triangles_.size()), {}};
@@ -113,7 +113,8 @@ private:
                 bricks_.push_back({parent, slot, {}, 0, 0.0f});
             } else {
                 top_[parent].children[slot] = int64_t(top_.size());
-                top_.push_back({child_cell(grid_, top_[parent].box, slot), touching_octant(top_[parent], slot), {}});
+                top_.push_back(
+                    {child_cell(grid_, top_[parent].box, slot), touching_octant(top_[parent], slot), {}});
             }
         }
         if (top_[parent].box.level != kBrickParentLevel) {
@@ -122,7 +123,7 @@ private:
         }
     }
 
-    // --- bricks -------------------------------------------------------------------------------------------------
+    // --- bricks ---
 
     void build_brick(Brick& brick) {
         if (control_.stop.load(std::memory_order_relaxed)) {
@@ -150,7 +151,7 @@ private:
         }
     }
 
-    // --- one array of cells -------------------------------------------------------------------------------------
+    // --- one array of cells ---
 
     Expected<Octree> assemble() {
         const uint64_t total = control_.cell_count + top_.size();
@@ -213,8 +214,8 @@ private:
 
 } // namespace
 
-Expected<Octree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces, const BakeProgress& progress,
-                          const BakeLimits& limits) {
+Expected<Octree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces,
+                          const BakeProgress& progress, const BakeLimits& limits) {
     if (progress && !progress(0.0f)) {
         return Error{ErrorCode::Cancelled, "bake: cancelled"};
     }

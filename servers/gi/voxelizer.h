@@ -1,15 +1,16 @@
 #pragma once
 
 #include "servers/gi/probe_data.h"
+
 #include "core/image.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace cl::gi {
 
@@ -25,8 +26,8 @@ struct MaterialCapture {
 
 struct CaptureInput {
     glm::vec3 albedo_color{1.0f};
-    const Image* albedo_texture = nullptr;   ///< null: none
-    glm::vec3 emission_color{0.0f};          ///< times energy
+    const Image* albedo_texture = nullptr; ///< null: none
+    glm::vec3 emission_color{0.0f};        ///< times energy
     float emission_energy = 1.0f;
     bool emission_multiply = false;
     const Image* emission_texture = nullptr;
@@ -38,16 +39,16 @@ struct CaptureInput {
 
 /// Triangles to plot: one surface of one instance. Spans live until voxelize() returns.
 struct PlotSurface {
-    Transform local_from_mesh;                ///< probe-local [m] from mesh
+    Transform local_from_mesh; ///< probe-local [m] from mesh
     std::span<const glm::vec3> positions;
-    std::span<const glm::vec3> normals;       ///< mesh space, empty = none
-    std::span<const glm::vec2> uvs;           ///< empty = none
-    std::span<const uint32_t> indices;        ///< empty = consecutive vertices; leftovers are dropped
-    const MaterialCapture* material = nullptr;///< never null
+    std::span<const glm::vec3> normals;        ///< mesh space, empty = none
+    std::span<const glm::vec2> uvs;            ///< empty = none
+    std::span<const uint32_t> indices;         ///< empty = consecutive vertices; leftovers are dropped
+    const MaterialCapture* material = nullptr; ///< never null
 };
 
-/// Called with the share of the plot that is done, in [0, 1], never less than before; returning false cancels.
-/// One call at a time, but perhaps on a worker thread.
+/// Called with the share of the plot that is done, in [0, 1], never less than before; returning false
+/// cancels. One call at a time, but perhaps on a worker thread.
 using BakeProgress = std::function<bool(float)>;
 
 /// Most cells of a bake: 3.5 GiB of them.
@@ -57,9 +58,9 @@ struct BakeLimits {
     uint32_t max_cells = kMaxCells; ///< kMaxCells at most
 };
 
-/// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6. Godot 3.2.3 bakes
-/// the same cells; their order in the array is depth first here, where Godot's is the order of creation. The result
-/// is the same for any number of threads.
+/// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6.
+/// Godot 3.2.3 bakes the same cells; their order in the array is depth first here, where Godot's is the order
+/// of creation. The result is the same for any number of threads.
 /// @return InvalidArgument if a surface's arrays do not fit together or its material is missing; Cancelled if
 ///         `progress` said so; OutOfMemory beyond `limits`.
 /// Departs: triangles with coordinates that are not finite or beyond 1e12 m are left out.

@@ -1,11 +1,11 @@
 #include "servers/mesh_surface.h"
 
+#include <doctest/doctest.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
-
-#include <doctest/doctest.h>
 
 namespace {
 
@@ -37,7 +37,9 @@ MeshSurface encoded(const SurfaceArrays& arrays, uint32_t compression = surface_
     return *surface;
 }
 
-std::string error_of(const Status& status) { return status ? "no error" : status.error().message; }
+std::string error_of(const Status& status) {
+    return status ? "no error" : status.error().message;
+}
 
 TEST_SUITE("servers/mesh_surface") {
     TEST_CASE("the worked example packs to the specification's bytes") {
@@ -45,10 +47,10 @@ TEST_SUITE("servers/mesh_surface") {
         CHECK(s.format == 97599);
         CHECK(s.vertex_count == 3);
         CHECK(s.index_count == 3);
-        const std::vector<uint8_t> expected = {0,   0, 0, 0,   0,   0, 0, 0,   0,  0,  0, 0,   0,   0,   127, 0,
-                                               127, 0, 0, 127, 255, 0, 0, 255, 0,  0,  0, 0,   0,   0,   0,   0,
-                                               0,   0, 128, 63, 0,  0, 0, 63,  0,  0,  0, 0,   0,   89,  89,  0,
-                                               127, 0, 0, 129, 0, 127, 0, 255, 0,  60, 85, 53, 0,   60,  0,   0};
+        const std::vector<uint8_t> expected = {
+            0, 0,   0,  0, 0,   0, 0, 0,   0, 0,   0, 0,   0,   0,  127, 0,  127, 0,  0, 127, 255, 0,
+            0, 255, 0,  0, 0,   0, 0, 0,   0, 0,   0, 0,   128, 63, 0,   0,  0,   63, 0, 0,   0,   0,
+            0, 89,  89, 0, 127, 0, 0, 129, 0, 127, 0, 255, 0,   60, 85,  53, 0,   60, 0, 0};
         REQUIRE(s.vertices.size() == 96);
         CHECK(std::vector<uint8_t>(s.vertices.begin(), s.vertices.begin() + 64) == expected);
         CHECK(s.indices == std::vector<uint8_t>{0, 0, 1, 0, 2, 0});
@@ -163,7 +165,7 @@ TEST_SUITE("servers/mesh_surface") {
         widen_old_vertices(old); // already wide: nothing to do
         CHECK(old.vertices == now.vertices);
         MeshSurface plain = encoded(worked_example());
-        plain.vertices.resize(plain.vertices.size() - 6);
+        plain.vertices.erase(plain.vertices.end() - 6, plain.vertices.end());
         widen_old_vertices(plain); // plain vertices were never 6 bytes
         CHECK(plain.vertices.size() == 90);
     }

@@ -3,9 +3,9 @@
 #include "servers/gi/probe_data.h"
 #include "servers/gi/relight.h"
 
-#include <vector>
-
 #include <glm/vec3.hpp>
+
+#include <vector>
 
 namespace cl::tests {
 

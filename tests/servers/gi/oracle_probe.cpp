@@ -69,7 +69,9 @@ std::unique_ptr<gi::MaterialCapture> read_material(const Block& block) {
     return std::make_unique<gi::MaterialCapture>(gi::capture_material(input));
 }
 
-bool is_kind(const Block& block, const char* kind) { return block.heading.find(kind) != std::string::npos; }
+bool is_kind(const Block& block, const char* kind) {
+    return block.heading.find(kind) != std::string::npos;
+}
 
 } // namespace
 

@@ -12,8 +12,9 @@
 
 namespace cl::tests {
 
-/// A probe of an oracle scene with what it bakes: read by a small reader of our own, since this layer knows no scene
-/// file. It understands what those scenes hold: cubes, spheres, plain colours, no parents but the root.
+/// A probe of an oracle scene with what it bakes: read by a small reader of our own, since this layer knows
+/// no scene file. It understands what those scenes hold: cubes, spheres, plain colours, no parents but the
+/// root.
 struct OracleProbe {
     gi::Grid grid;
     std::vector<gi::PlotSurface> surfaces; ///< into the members below

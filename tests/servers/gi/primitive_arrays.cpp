@@ -1,9 +1,9 @@
 #include "tests/servers/gi/primitive_arrays.h"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <cstdlib>
-
-#include <glm/geometric.hpp>
 
 namespace cl::tests {
 

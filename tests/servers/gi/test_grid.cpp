@@ -1,9 +1,9 @@
 #include "servers/gi/probe_data.h"
 
+#include <doctest/doctest.h>
+
 #include <limits>
 #include <random>
-
-#include <doctest/doctest.h>
 
 namespace {
 

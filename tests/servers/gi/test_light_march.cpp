@@ -1,10 +1,10 @@
 #include "servers/gi/light_march.h"
 
-#include <cmath>
-#include <random>
-
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+
+#include <cmath>
+#include <random>
 
 namespace {
 
@@ -73,7 +73,8 @@ TEST_SUITE("servers/gi/light_march") {
         std::mt19937 random(8);
         std::vector<bool> expected(size_t(8 * 2 * 16));
         for (int i = 0; i < 60; ++i) {
-            const uint32_t x = uint32_t(random() % 8), y = uint32_t(random() % 2), z = uint32_t(random() % 16);
+            const uint32_t x = uint32_t(random() % 8), y = uint32_t(random() % 2),
+                           z = uint32_t(random() % 16);
             leaves.add(x, y, z);
             expected[(z * 2 + y) * 8 + x] = true;
         }

@@ -68,9 +68,10 @@ TEST_SUITE("servers/gi/material_capture") {
     }
 
     TEST_CASE("resizing to the same size shifts content by half a texel, as Godot's filter does") {
-        // Place x - 0.5 between texels x - 1 and x: weights -1/16, 9/16, 9/16, -1/16. At x = 0 the place truncates
-        // to 0 with a fraction of -0.5, whose taps lie at -1, 0, 1, 2 with weights K(0.5), K(0.5), K(1.5), K(2.5).
-        const Image ramp = image_of({4, 1}, {0,   0, 0, 255, 64,  0, 0, 255, //
+        // Place x - 0.5 between texels x - 1 and x: weights -1/16, 9/16, 9/16, -1/16. At x = 0 the place
+        // truncates to 0 with a fraction of -0.5, whose taps lie at -1, 0, 1, 2 with weights K(0.5), K(0.5),
+        // K(1.5), K(2.5).
+        const Image ramp = image_of({4, 1}, {0, 0, 0, 255, 64, 0, 0, 255, //
                                              128, 0, 0, 255, 192, 0, 0, 255});
         const Image resized = gi::resize_cubic_rgba8(ramp, {4, 1});
         // Along y the single row takes K(0.5) + K(0.5) + K(1.5) + K(2.5) = 9/16 + 9/16 - 1/16 + 0 = 17/16.

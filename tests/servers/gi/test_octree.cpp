@@ -3,10 +3,10 @@
 #include "servers/gi/probe_data.h"
 #include "servers/gi/voxelizer.h"
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <random>
-
-#include <doctest/doctest.h>
 
 namespace {
 
@@ -55,7 +55,9 @@ size_t stray_children(const gi::Octree& octree) {
 }
 
 /// Int of field `field` of cell `cell`.
-size_t at(size_t cell, size_t field) { return 16 + 12 * cell + field; }
+size_t at(size_t cell, size_t field) {
+    return 16 + 12 * cell + field;
+}
 
 TEST_SUITE("servers/gi/octree") {
     TEST_CASE("the worked example bakes to the specification's cells, header and ints") {

@@ -3,10 +3,10 @@
 
 #include "servers/gi/voxelizer.h"
 
+#include <doctest/doctest.h>
+
 #include <cstdlib>
 #include <map>
-
-#include <doctest/doctest.h>
 
 namespace {
 
@@ -17,8 +17,8 @@ using CellMap = std::map<uint64_t, const gi::Cell*>;
 
 void add_cells(const gi::Octree& tree, uint32_t index, int level, glm::ivec3 origin, CellMap& map) {
     const gi::Cell& cell = tree.cells[index];
-    map[(uint64_t(level) << 60) | (uint64_t(origin.z) << 40) | (uint64_t(origin.y) << 20) | uint64_t(origin.x)] =
-        &cell;
+    map[(uint64_t(level) << 60) | (uint64_t(origin.z) << 40) | (uint64_t(origin.y) << 20) |
+        uint64_t(origin.x)] = &cell;
     const int half = level < tree.levels - 1 ? 1 << (tree.levels - 2 - level) : 0;
     for (int slot = 0; slot < 8; ++slot) {
         if (cell.children[slot] != gi::kNoChild) {
@@ -86,14 +86,15 @@ TEST_SUITE("servers/gi/voxelizer") {
             MESSAGE("skipped: no reference material");
             return;
         }
-        for (const OracleBake& bake : {OracleBake{"cornell_omni", "Probe"}, OracleBake{"cornell_emissive", "Probe"},
-                                       OracleBake{"sun_room", "Probe"}, OracleBake{"spot_bounce", "Probe"},
-                                       OracleBake{"thin_wall", "Probe"}, OracleBake{"two_probes", "ProbeA"},
-                                       OracleBake{"two_probes", "ProbeB"}, OracleBake{"courtyard", "Probe"}}) {
+        for (const OracleBake& bake :
+             {OracleBake{"cornell_omni", "Probe"}, OracleBake{"cornell_emissive", "Probe"},
+              OracleBake{"sun_room", "Probe"}, OracleBake{"spot_bounce", "Probe"},
+              OracleBake{"thin_wall", "Probe"}, OracleBake{"two_probes", "ProbeA"},
+              OracleBake{"two_probes", "ProbeB"}, OracleBake{"courtyard", "Probe"}}) {
             const std::string name = std::string(bake.scene) + "_" + bake.probe;
             CAPTURE(name);
-            const Expected<gi::Octree> theirs = gi::decode_octree(
-                tests::load_dynamic_data(*shared / "oracle/godot" / (name + ".tres.xz")));
+            const Expected<gi::Octree> theirs =
+                gi::decode_octree(tests::load_dynamic_data(*shared / "oracle/godot" / (name + ".tres.xz")));
             REQUIRE_MESSAGE(theirs.has_value(), (theirs ? "" : theirs.error().message));
             const auto probe = tests::load_oracle_probe(
                 *shared / "oracle/scenes" / (std::string(bake.scene) + ".tscn"), bake.probe);
@@ -110,7 +111,8 @@ TEST_SUITE("servers/gi/voxelizer") {
                          << " bytes differ, " << a.bytes - a.within_one << " by more than 1; "
                          << a.inner - a.inner_equal << " of " << a.inner << " inner alphas differ; cells "
                          << ours->cells.size() << " and " << theirs->cells.size());
-            // All of it is equal where this was written. The margin is for compilers that fuse multiplies and adds.
+            // All of it is equal where this was written. The margin is for compilers that fuse multiplies and
+            // adds.
             CHECK(overlap >= 0.999);
             CHECK(double(a.within_one) >= 0.999 * double(a.bytes));
             CHECK(double(a.inner_equal) >= 0.999 * double(a.inner));

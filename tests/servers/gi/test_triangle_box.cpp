@@ -1,11 +1,11 @@
 #include "servers/gi/triangle_box.h"
 #include "servers/gi/voxelizer.h"
 
-#include <cmath>
-#include <random>
-
 #include <doctest/doctest.h>
 #include <glm/common.hpp>
+
+#include <cmath>
+#include <random>
 
 namespace {
 
@@ -17,7 +17,8 @@ struct RandomTriangles {
     glm::vec3 point(float range) { return {number(range), number(range), number(range)}; }
 };
 
-/// Least distance, over all axes the largest, from the box to points spread over the triangle: 0 if one is inside.
+/// Least distance, over all axes the largest, from the box to points spread over the triangle: 0 if one is
+/// inside.
 float least_gap(const glm::vec3 (&v)[3], const glm::vec3& center, const glm::vec3& half, int steps) {
     float least = 1e9f;
     for (int i = 0; i <= steps; ++i) {
@@ -77,7 +78,8 @@ TEST_SUITE("servers/gi/triangle_box") {
             const uint32_t together = gi::overlapping_boxes(boxes, v);
             uint32_t alone = 0;
             for (int lane = 0; lane < 4; ++lane) {
-                alone |= uint32_t(gi::triangle_overlaps_box(centers[lane], halves[lane], v[0], v[1], v[2])) << lane;
+                alone |= uint32_t(gi::triangle_overlaps_box(centers[lane], halves[lane], v[0], v[1], v[2]))
+                         << lane;
             }
             touching += alone != 0;
             CHECK(together == alone);

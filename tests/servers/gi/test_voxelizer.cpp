@@ -5,13 +5,13 @@
 
 #include "core/threads.h"
 
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <set>
-
-#include <doctest/doctest.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace {
 
@@ -24,13 +24,15 @@ public:
         : grid_(*gi::compute_grid(extents_m, subdivision)) {}
 
     gi::PlotSurface& add(const SurfaceArrays& arrays, const Transform& local_from_mesh,
-                         const glm::vec3& albedo = glm::vec3(1.0f), const glm::vec3& emission = glm::vec3(0.0f)) {
+                         const glm::vec3& albedo = glm::vec3(1.0f),
+                         const glm::vec3& emission = glm::vec3(0.0f)) {
         arrays_.push_back(std::make_unique<SurfaceArrays>(arrays));
         materials_.push_back(std::make_unique<gi::MaterialCapture>());
         materials_.back()->albedo = {albedo};
         materials_.back()->emission = {emission};
         const SurfaceArrays& a = *arrays_.back();
-        surfaces_.push_back({local_from_mesh, a.positions, a.normals, a.uvs, a.indices, materials_.back().get()});
+        surfaces_.push_back(
+            {local_from_mesh, a.positions, a.normals, a.uvs, a.indices, materials_.back().get()});
         return surfaces_.back();
     }
     [[nodiscard]] gi::MaterialCapture& last_material() { return *materials_.back(); }
@@ -87,12 +89,13 @@ std::set<uint32_t> words_of(const gi::Octree& octree, uint32_t gi::Cell::*word) 
 /// A scene with every kind of triangle: tiny, huge, smooth, degenerate, outside of the box.
 Bake mixed_scene() {
     Bake bake({1.0f, 0.5f, 0.7f}, 128);
-    bake.add(tests::as_stored(tests::sphere_arrays()), turned(0.4f, {0, 1, 0}, glm::vec3(0.4f, 0.3f, 0.5f), {0.1f, 0, 0}),
-             {0.8f, 0.2f, 0.1f});
+    bake.add(tests::as_stored(tests::sphere_arrays()),
+             turned(0.4f, {0, 1, 0}, glm::vec3(0.4f, 0.3f, 0.5f), {0.1f, 0, 0}), {0.8f, 0.2f, 0.1f});
     bake.add(tests::as_stored(tests::cube_arrays(glm::vec3(1.0f))),
              turned(0.7f, glm::normalize(glm::vec3(1, 2, 3)), {0.9f, 0.05f, 1.5f}, {-0.2f, -0.1f, 0.1f}),
              {0.1f, 0.9f, 0.3f}, {1.0f, 2.0f, 0.5f});
-    bake.add(tests::as_stored(tests::quad_arrays({50.0f, 50.0f})), turned(1.1f, {1, 0, 0}, glm::vec3(1.0f), {0, 0.2f, 0}));
+    bake.add(tests::as_stored(tests::quad_arrays({50.0f, 50.0f})),
+             turned(1.1f, {1, 0, 0}, glm::vec3(1.0f), {0, 0.2f, 0}));
     return bake;
 }
 
@@ -153,7 +156,8 @@ TEST_SUITE("servers/gi/voxelizer") {
 
     TEST_CASE("normals stay in mesh space however the mesh is turned: what Godot bakes") {
         Bake bake;
-        bake.add(tests::as_stored(tests::quad_arrays({0.5f, 0.5f})), turned(1.0f, {0, 1, 0}, glm::vec3(1.0f), glm::vec3(0.0f)));
+        bake.add(tests::as_stored(tests::quad_arrays({0.5f, 0.5f})),
+                 turned(1.0f, {0, 1, 0}, glm::vec3(1.0f), glm::vec3(0.0f)));
         CHECK(words_of(bake.run(), &gi::Cell::normal) == std::set<uint32_t>{0x7F7FFF});
     }
 
@@ -167,14 +171,17 @@ TEST_SUITE("servers/gi/voxelizer") {
 
     TEST_CASE("emission is kept up to a length of 8") {
         Bake bake;
-        bake.add(tests::as_stored(tests::quad_arrays({4.0f, 4.0f})), at({0, 0, 0.01f}), glm::vec3(0.5f), {3.0f, 4.0f, 0.0f});
-        bake.add(tests::as_stored(tests::quad_arrays({4.0f, 4.0f})), at({0, 0, 0.51f}), glm::vec3(0.5f), {0.0f, 20.0f, 0.0f});
+        bake.add(tests::as_stored(tests::quad_arrays({4.0f, 4.0f})), at({0, 0, 0.01f}), glm::vec3(0.5f),
+                 {3.0f, 4.0f, 0.0f});
+        bake.add(tests::as_stored(tests::quad_arrays({4.0f, 4.0f})), at({0, 0, 0.51f}), glm::vec3(0.5f),
+                 {0.0f, 20.0f, 0.0f});
         // Unit direction (0.6, 0.8, 0) and length 5 of 8; direction y and length at its limit.
         CHECK(words_of(bake.run(), &gi::Cell::emission) == std::set<uint32_t>{0x99CC009F, 0x00FF00FF});
     }
 
     TEST_CASE("a texture lands where its coordinates say, unfiltered and wrapped") {
-        // One triangle over the whole front of the box; coordinates run from 0 to 1 across it, plus whole turns.
+        // One triangle over the whole front of the box; coordinates run from 0 to 1 across it, plus whole
+        // turns.
         SurfaceArrays wide;
         wide.positions = {{-1, -1, 0}, {-1, 3, 0}, {3, -1, 0}};
         wide.normals.assign(3, glm::vec3(0, 0, 1));
@@ -242,12 +249,13 @@ TEST_SUITE("servers/gi/voxelizer") {
 
     TEST_CASE("degenerate triangles bake like any other") {
         SurfaceArrays sliver;
-        sliver.positions = {{-0.5f, 0.01f, 0.01f}, {0.5f, 0.01f, 0.01f}, {0.5f, 0.01f, 0.01f}, //
+        sliver.positions = {{-0.5f, 0.01f, 0.01f}, {0.5f, 0.01f, 0.01f},  {0.5f, 0.01f, 0.01f}, //
                             {0.01f, 0.51f, 0.01f}, {0.01f, 0.51f, 0.01f}, {0.01f, 0.51f, 0.01f}};
         sliver.normals.assign(6, glm::vec3(0, 1, 0));
         Bake bake;
         bake.add(sliver, Transform{});
-        // A segment from -0.5 to 0.5 touches 34 cells of 1/32: both ends lie on boundaries. A point touches one.
+        // A segment from -0.5 to 0.5 touches 34 cells of 1/32: both ends lie on boundaries. A point touches
+        // one.
         CHECK(bake.run().leaf_count == 34 + 1);
     }
 

@@ -1,0 +1,92 @@
+#include "tests/servers/gi/hand_made_octree.h"
+#include "tests/servers/gi/relight_scene.h"
+
+#include "servers/gi/relight.h"
+
+#include "core/threads.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace cl;
+using tests::busy_lights;
+using tests::busy_octree;
+using tests::kPlusX;
+
+using Sums = std::vector<int32_t>;
+
+TEST_SUITE("servers/gi/downsample") {
+    /// Two leaves, alone in a parent that is alone in its own, and so on to the root.
+    struct Pair {
+        gi::CellLayout layout =
+            gi::make_layout(tests::make_octree({{{0, 0, 0}, kPlusX}, {{1, 0, 0}, kPlusX}}));
+        gi::CellEnergies energies;
+
+        int red_of_level(int level) const {
+            return energies.rgb[size_t(layout.cells_of_level[size_t(level)][0]) * 3];
+        }
+    };
+
+    TEST_CASE("propagation 0 is the mean over eight, black where there is no child") {
+        Pair p;
+        gi::energies_from_leaves(p.layout, Sums{1000, 0, 0, 3001, 0, 0}, 0.0f, p.energies);
+        CHECK(p.red_of_level(6) == 1000);
+        CHECK(p.red_of_level(5) == 500); // 4001 / 8 = 500.125
+        CHECK(p.red_of_level(4) == 63);  // 62.5 rounds away from zero
+        CHECK(p.red_of_level(3) == 8);
+    }
+
+    TEST_CASE("propagation 1 is the mean over the children that exist: light does not dim upward") {
+        Pair p;
+        gi::energies_from_leaves(p.layout, Sums{1000, 0, 0, 3001, 0, 0}, 1.0f, p.energies);
+        CHECK(p.red_of_level(5) == 2001); // 2000.5 rounds away from zero
+        CHECK(p.red_of_level(4) == 2001);
+        CHECK(p.red_of_level(0) == 2001);
+    }
+
+    TEST_CASE("propagation 0.7 divides by 8 + (n - 8) * 0.7") {
+        Pair p;
+        gi::energies_from_leaves(p.layout, Sums{1000, 0, 0, 3001, 0, 0}, 0.7f, p.energies);
+        CHECK(p.red_of_level(5) == 1053); // 4001 / 3.8 = 1052.9
+        CHECK(p.red_of_level(4) == 340);  // 1053 / 3.1 = 339.7
+    }
+
+    TEST_CASE("sums clamp to what an energy can hold, where Godot wraps") {
+        Pair p;
+        gi::energies_from_leaves(p.layout, Sums{70000, -5, 65535, 1 << 24, 0, 0}, 1.0f, p.energies);
+        const size_t leaf = size_t(p.layout.leaves[0].cell) * 3;
+        CHECK(p.energies.rgb[leaf] == 65535);
+        CHECK(p.energies.rgb[leaf + 1] == 0);
+        CHECK(p.energies.rgb[leaf + 2] == 65535);
+        CHECK(p.red_of_level(5) == 65535);
+    }
+
+    TEST_CASE("a root alone and any propagation give black, not a division by zero") {
+        const gi::CellLayout layout = gi::make_layout(tests::make_octree({}));
+        for (const float propagation : {0.0f, 1.0f, 2.0f, -3.0f, std::numeric_limits<float>::quiet_NaN()}) {
+            gi::CellEnergies energies;
+            gi::energies_from_leaves(layout, {}, propagation, energies);
+            CHECK(energies.rgb == std::vector<gi::Energy>{0, 0, 0});
+        }
+    }
+
+    TEST_CASE("inner energies do not depend on threads or on what was there before") {
+        const gi::CellLayout layout = gi::make_layout(busy_octree());
+        Sums sums = gi::emission_energies(layout);
+        gi::inject_light(layout, busy_lights()[0], 1, sums);
+        gi::CellEnergies one;
+        set_thread_count(1);
+        gi::energies_from_leaves(layout, sums, 0.7f, one);
+        gi::CellEnergies four;
+        four.rgb.assign(layout.cells.size() * 3, 12345);
+        set_thread_count(4);
+        gi::energies_from_leaves(layout, sums, 0.7f, four);
+        set_thread_count(0);
+        CHECK(one.rgb == four.rgb);
+    }
+}
+
+} // namespace
