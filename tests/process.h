@@ -6,7 +6,8 @@
 
 namespace cl::tests {
 
-/// What a finished program left behind. exit_status is -1 if it could not be started, 128 + n if signal n ended it.
+/// What a finished program left behind. exit_status is -1 if it could not be started, 128 + n if signal n
+/// ended it.
 struct ProcessResult {
     int exit_status = -1;
     std::string output; ///< standard output

@@ -31,7 +31,8 @@ Expected<std::vector<scene::GIProbe*>> choose_probes(scene::Node& root, const Op
     for (const std::string& path : options.probe_paths) {
         auto* probe = root.get_node_as<scene::GIProbe>(path);
         if (!probe) {
-            return Error{ErrorCode::NotFound, fmt::format("--probe: expected the path of a GIProbe, found {}", path)};
+            return Error{ErrorCode::NotFound,
+                         fmt::format("--probe: expected the path of a GIProbe, found {}", path)};
         }
         chosen.push_back(probe);
     }
@@ -74,7 +75,8 @@ struct Baked {
     std::filesystem::path file;
 };
 
-/// Writes one file a probe, and its reference into the scene with `--embed`. @return how many files were written.
+/// Writes one file a probe, and its reference into the scene with `--embed`. @return how many files were
+/// written.
 Expected<int> write_all(const std::vector<Baked>& baked, const scene::Node& root, const Options& options) {
     int written = 0;
     for (const Baked& b : baked) {
@@ -127,13 +129,15 @@ int run_bake(const Options& options) {
         return fail(probes.error());
     }
     if (probes->empty()) {
-        return fail({ErrorCode::NotFound, "expected a scene with a GIProbe, found none", {options.input.string()}});
+        return fail(
+            {ErrorCode::NotFound, "expected a scene with a GIProbe, found none", {options.input.string()}});
     }
     Figures figures;
     double bake_ms = 0.0;
     std::vector<Baked> baked;
     FileNames names;
-    const std::filesystem::path folder = options.output_dir.empty() ? options.input.parent_path() : options.output_dir;
+    const std::filesystem::path folder =
+        options.output_dir.empty() ? options.input.parent_path() : options.output_dir;
     for (scene::GIProbe* probe : *probes) {
         if (options.subdivision) {
             // 64, 128, 256, 512 are checked on the command line: 64 << subdiv.

@@ -5,6 +5,7 @@
 
 #include "scene/3d/gi_probe.h"
 #include "scene/3d/light.h"
+
 #include "servers/visual_server.h"
 
 #include <fmt/format.h>
@@ -44,7 +45,8 @@ Expected<Spread> repeat(int runs, const std::function<Expected<double>()>& run_m
 
 void print_row(const char* name, const std::optional<Spread>& s) {
     if (s) {
-        std::cout << fmt::format("{:<10} {:>10.2f} {:>10.2f} {:>10.2f}\n", name, s->least, s->median, s->most);
+        std::cout << fmt::format("{:<10} {:>10.2f} {:>10.2f} {:>10.2f}\n", name, s->least, s->median,
+                                 s->most);
     } else {
         std::cout << fmt::format("{:<10} {:>10} {:>10} {:>10}\n", name, "-", "-", "-");
     }
@@ -54,7 +56,8 @@ scene::Light* first_baked_light(scene::Node& root) {
     scene::Light* found = nullptr;
     root.for_each_in_subtree([&](scene::Node& node) {
         auto* light = dynamic_cast<scene::Light*>(&node);
-        if (!found && light && light->is_visible_in_tree() && light->desc().bake_mode != LightBakeMode::Disabled) {
+        if (!found && light && light->is_visible_in_tree() &&
+            light->desc().bake_mode != LightBakeMode::Disabled) {
             found = light;
         }
     });
@@ -80,7 +83,9 @@ Expected<Spread> time_bakes(scene::Node& root, const Options& options, Figures& 
 /// One light made a little brighter and dimmer in turn, until the new volumes are ready to draw.
 Expected<Spread> time_relights(Stage& stage, scene::Light& light, int runs) {
     const float energy = light.desc().energy;
-    const auto set_energy = [&light](float value) { light.edit([value](LightDesc& d) { d.energy = value; }); };
+    const auto set_energy = [&light](float value) {
+        light.edit([value](LightDesc& d) { d.energy = value; });
+    };
     bool brighter = false;
     Expected<Spread> spread = repeat(runs, [&]() -> Expected<double> {
         brighter = !brighter;
@@ -183,8 +188,8 @@ int run_bench(const Options& options) {
         const Status written = write_json(to_json(figures), options.json_file);
         return written ? kDone : fail(written.error());
     }
-    std::cout << fmt::format("{:<10} {:>10} {:>10} {:>10}   [ms], {} runs, {} threads, {}\n", "", "least", "median",
-                             "most", options.runs, figures.threads, figures.renderer);
+    std::cout << fmt::format("{:<10} {:>10} {:>10} {:>10}   [ms], {} runs, {} threads, {}\n", "", "least",
+                             "median", "most", options.runs, figures.threads, figures.renderer);
     print_row("bake", result->bake);
     print_row("relight", result->relight);
     print_row("frame", result->frame);

@@ -8,7 +8,7 @@ namespace cl::demo {
 
 // Exit statuses that users and scripts rely on.
 inline constexpr int kDone = 0;
-inline constexpr int kFailed = 1;        ///< the scene or a file is wrong, or a step failed; one line was printed
+inline constexpr int kFailed = 1; ///< the scene or a file is wrong, or a step failed; one line was printed
 inline constexpr int kWrongCommand = 2;
 inline constexpr int kNoDriver = 3;
 

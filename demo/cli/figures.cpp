@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <iostream>
-
 #include <sys/resource.h>
 
 namespace cl::demo {
@@ -17,12 +16,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
 
 Json probe_json(const ProbeFigures& probe) {
-    return {{"path", probe.path},   {"size", {probe.size.x, probe.size.y, probe.size.z}},
-            {"cells", probe.cells}, {"leaves", probe.leaves},
-            {"bake_ms", number_or_null(probe.bake_ms)}, {"bytes", probe.bytes}};
+    return {{"path", probe.path},
+            {"size", {probe.size.x, probe.size.y, probe.size.z}},
+            {"cells", probe.cells},
+            {"leaves", probe.leaves},
+            {"bake_ms", number_or_null(probe.bake_ms)},
+            {"bytes", probe.bytes}};
 }
 
 int64_t now_ns() {
@@ -77,6 +81,8 @@ double peak_rss_mib() {
 
 Stopwatch::Stopwatch() : start_ns_(now_ns()) {}
 
-double Stopwatch::elapsed_ms() const { return static_cast<double>(now_ns() - start_ns_) * 1e-6; }
+double Stopwatch::elapsed_ms() const {
+    return static_cast<double>(now_ns() - start_ns_) * 1e-6;
+}
 
 } // namespace cl::demo

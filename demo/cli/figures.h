@@ -2,14 +2,14 @@
 
 #include "core/expected.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace cl::demo {
 
@@ -22,8 +22,8 @@ struct ProbeFigures {
     uint64_t bytes = 0;            ///< of the data as stored
 };
 
-/// The figures of a run, as `--stats` and `bench --json` write them. Times in milliseconds; a step that did not
-/// run is none and becomes null.
+/// The figures of a run, as `--stats` and `bench --json` write them. Times in milliseconds; a step that did
+/// not run is none and becomes null.
 struct Figures {
     std::string scene, driver, renderer, gi;
     glm::ivec2 size{0};

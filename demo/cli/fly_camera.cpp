@@ -1,9 +1,9 @@
 #include "demo/cli/fly_camera.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <numbers>
-
-#include <glm/geometric.hpp>
 
 namespace cl::demo {
 
@@ -52,7 +52,8 @@ bool FlyCamera::turn(const InputState& input, float delta_s) {
 }
 
 bool FlyCamera::move(const InputState& input, float delta_s) {
-    const glm::vec3 wish(axis(input, Key::D, Key::A), axis(input, Key::E, Key::Q), axis(input, Key::S, Key::W));
+    const glm::vec3 wish(axis(input, Key::D, Key::A), axis(input, Key::E, Key::Q),
+                         axis(input, Key::S, Key::W));
     if (wish == glm::vec3(0.0f)) {
         return false;
     }

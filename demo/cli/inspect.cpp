@@ -1,8 +1,8 @@
+#include "scene/io/inspect.h"
+
 #include "demo/cli/commands.h"
 #include "demo/cli/inspect_text.h"
 #include "demo/cli/scene_loading.h"
-
-#include "scene/io/inspect.h"
 
 #include <iostream>
 

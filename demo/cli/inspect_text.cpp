@@ -85,7 +85,9 @@ Json probe_json(const scene::InspectedProbe& p) {
             {"bytes", p.bytes}};
 }
 
-std::string dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string dump(const Json& json) {
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 /// Values that would fill the screen are shown by their start.
 std::string shortened(const std::string& value) {
@@ -120,7 +122,8 @@ Json node_json(const scene::Node& root, const scene::Node& node) {
         properties[property.name.str()] = scene::value_text(property.value);
     }
     const std::string path = &node == &root ? "." : "./" + root.path_to(node).to_string();
-    return {{"path", path}, {"type", node.class_name().str()}, {"groups", groups}, {"properties", properties}};
+    return {
+        {"path", path}, {"type", node.class_name().str()}, {"groups", groups}, {"properties", properties}};
 }
 
 void append_nodes(Json& json, const scene::Node& root, const scene::Node& node) {
@@ -134,7 +137,8 @@ void append_nodes(Json& json, const scene::Node& root, const scene::Node& node) 
 
 std::string inspection_json(const scene::Inspection& i) {
     const bool is_scene = i.kind == scene::Inspection::Kind::Scene;
-    Json json = {{"kind", is_scene ? "scene" : "resource"}, {"file", i.file}, {"warnings", warnings_json(i.warnings)}};
+    Json json = {
+        {"kind", is_scene ? "scene" : "resource"}, {"file", i.file}, {"warnings", warnings_json(i.warnings)}};
     if (is_scene) {
         json["nodes"] = nodes_json(i.nodes);
         json["connections"] = connections_json(i.connections);
@@ -153,8 +157,9 @@ std::string inspection_text(const scene::Inspection& i) {
     std::string text = fmt::format("{}: {}\n", i.file, i.type.empty() ? "scene" : i.type);
     if (i.probe) {
         const scene::InspectedProbe& p = *i.probe;
-        text += fmt::format("probe {} x {} x {}: {} cells, {} leaves, {} levels, {:.1f} KiB\n", p.size.x, p.size.y,
-                            p.size.z, p.cells, p.leaves, p.levels, static_cast<double>(p.bytes) / 1024.0);
+        text += fmt::format("probe {} x {} x {}: {} cells, {} leaves, {} levels, {:.1f} KiB\n", p.size.x,
+                            p.size.y, p.size.z, p.cells, p.leaves, p.levels,
+                            static_cast<double>(p.bytes) / 1024.0);
     }
     for (const scene::InspectedResource& r : i.resources) {
         text += fmt::format("{} resource {}: {} {}\n", kind_name(r.kind), r.id, r.type, r.path.value_or(""));

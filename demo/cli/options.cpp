@@ -9,7 +9,8 @@ namespace cl::demo {
 
 namespace {
 
-const std::map<std::string, GIMode> kGIModes{{"off", GIMode::Off}, {"cones", GIMode::Cones}, {"auto", GIMode::Auto}};
+const std::map<std::string, GIMode> kGIModes{
+    {"off", GIMode::Off}, {"cones", GIMode::Cones}, {"auto", GIMode::Auto}};
 const std::map<std::string, Quality> kQualities{{"low", Quality::Low}, {"high", Quality::High}};
 constexpr int kMaxPictureEdge = 16384;
 
@@ -40,8 +41,10 @@ std::optional<PropertyOverride> parse_override(const std::string& text) {
 
 void add_common(CLI::App& app, Options& o, const char* what) {
     app.add_option(what, o.input, "the file to read")->required();
-    app.add_flag_callback("-q,--quiet", [&o] { o.verbosity = Verbosity::Quiet; }, "say nothing but errors");
-    app.add_flag_callback("-v,--verbose", [&o] { o.verbosity = Verbosity::Verbose; }, "say what is being done");
+    app.add_flag_callback(
+        "-q,--quiet", [&o] { o.verbosity = Verbosity::Quiet; }, "say nothing but errors");
+    app.add_flag_callback(
+        "-v,--verbose", [&o] { o.verbosity = Verbosity::Verbose; }, "say what is being done");
     app.add_option("--threads", o.threads, "worker threads (default: all cores)")->check(CLI::Range(1, 1024));
 }
 
@@ -70,12 +73,14 @@ void add_drawing(CLI::App& app, Options& o) {
            [&o](const std::string& text) {
                o.size = parse_size(text);
                if (!o.size) {
-                   throw CLI::ValidationError("--size", "expected WxH with edges of 1 to 16384, found " + text);
+                   throw CLI::ValidationError("--size",
+                                              "expected WxH with edges of 1 to 16384, found " + text);
                }
            },
            "pixels (default: the project's setting, else 1024x600)")
         ->type_name("WxH");
-    app.add_option("--gi", o.gi_mode, "global illumination: off, cones (Godot 3.2's) or auto (the best there is)")
+    app.add_option("--gi", o.gi_mode,
+                   "global illumination: off, cones (Godot 3.2's) or auto (the best there is)")
         ->transform(CLI::CheckedTransformer(kGIModes))
         ->type_name("MODE");
     app.add_option("--quality", o.quality, "low (4 cones) or high (6 cones)")
@@ -100,13 +105,15 @@ void add_render(CLI::App& app, Options& o) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->type_name("FILE");
-    c->add_option("--frames", o.frames, "frames drawn before the picture is taken (default: enough to settle)")
+    c->add_option("--frames", o.frames,
+                  "frames drawn before the picture is taken (default: enough to settle)")
         ->check(CLI::Range(1, 1'000'000));
     c->callback([&o] { o.command = Command::Render; });
 }
 
 void add_run(CLI::App& app, Options& o) {
-    CLI::App* c = app.add_subcommand("run", "the same scene, live, in a window: WASD and mouse fly, Esc ends");
+    CLI::App* c =
+        app.add_subcommand("run", "the same scene, live, in a window: WASD and mouse fly, Esc ends");
     add_common(*c, o, "SCENE");
     add_drawing(*c, o);
     add_stats(*c, o);
@@ -148,7 +155,8 @@ void add_bench(CLI::App& app, Options& o) {
     add_common(*c, o, "SCENE");
     add_drawing(*c, o);
     c->add_option("--runs", o.runs, "repetitions (default 7)")->check(CLI::Range(1, 10'000));
-    c->add_option("--json", o.json_file, "write the figures as JSON (- for standard output)")->type_name("FILE");
+    c->add_option("--json", o.json_file, "write the figures as JSON (- for standard output)")
+        ->type_name("FILE");
     c->callback([&o] { o.command = Command::Bench; });
 }
 

@@ -2,12 +2,12 @@
 
 #include "servers/render_types.h"
 
+#include <glm/vec2.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
 
 namespace cl::demo {
 

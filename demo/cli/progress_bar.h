@@ -6,7 +6,8 @@
 
 namespace cl::demo {
 
-/// One line on a terminal's stderr that shows the share done; nothing when stderr is no terminal or quiet is asked.
+/// One line on a terminal's stderr that shows the share done; nothing when stderr is no terminal or quiet is
+/// asked.
 class ProgressBar {
 public:
     ProgressBar(std::string title, Verbosity verbosity);

@@ -4,6 +4,7 @@
 #include "demo/cli/stage.h"
 
 #include "scene/3d/world.h"
+
 #include "servers/visual_server.h"
 
 #include "core/image.h"
@@ -19,16 +20,20 @@ namespace cl::demo {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
-constexpr int kTimedFrames = 3; // for --stats: the median of an odd few is enough, one frame may take a second
+constexpr int kTimedFrames =
+    3; // for --stats: the median of an odd few is enough, one frame may take a second
 
-bool is_exr(const std::filesystem::path& path) { return path.extension() == ".exr"; }
+bool is_exr(const std::filesystem::path& path) {
+    return path.extension() == ".exr";
+}
 
 /// Nothing is drawn for a picture that could not be written anyway.
 Status check_outputs(const std::vector<std::filesystem::path>& outputs) {
     for (const std::filesystem::path& path : outputs) {
         if (path.extension() != ".png" && !is_exr(path)) {
-            return Error{ErrorCode::Unsupported,
-                         fmt::format("expected an output file that ends in .png or .exr, found {}", path.string())};
+            return Error{
+                ErrorCode::Unsupported,
+                fmt::format("expected an output file that ends in .png or .exr, found {}", path.string())};
         }
     }
     return {};

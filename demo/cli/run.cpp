@@ -6,6 +6,7 @@
 
 #include "scene/3d/camera.h"
 #include "scene/3d/world.h"
+
 #include "servers/visual_server.h"
 
 #include "core/io/log.h"

@@ -32,8 +32,8 @@ Status apply_override(scene::Node& root, const PropertyOverride& o) {
     }
     const StringName property(o.property);
     if (!node->has_property(property)) {
-        return override_error(o, fmt::format("expected a property of {}, found none of that name",
-                                             node->class_name().str()));
+        return override_error(
+            o, fmt::format("expected a property of {}, found none of that name", node->class_name().str()));
     }
     switch (node->set(property, *value)) {
     case SetResult::Done:
@@ -121,7 +121,8 @@ Expected<ProbeFigures> bake_with_progress(scene::Node& root, scene::GIProbe& pro
     if (!baked) {
         return baked.error();
     }
-    return ProbeFigures{path, baked->size, baked->cells, baked->leaves, watch.elapsed_ms(), data_bytes(probe)};
+    return ProbeFigures{path,          baked->size,        baked->cells,
+                        baked->leaves, watch.elapsed_ms(), data_bytes(probe)};
 }
 
 Status bake_unbaked_probes(scene::Node& root, const Options& options, Figures& figures) {
@@ -152,7 +153,8 @@ void print_warnings(const Diagnostics& diagnostics, Verbosity verbosity) {
 }
 
 int fail(const Error& error, int status) {
-    const std::string line = error.where.file.empty() ? "conelight: error: " + error.message : error.to_string();
+    const std::string line =
+        error.where.file.empty() ? "conelight: error: " + error.message : error.to_string();
     std::fprintf(stderr, "%s\n", line.c_str());
     return status;
 }

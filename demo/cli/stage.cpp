@@ -6,6 +6,7 @@
 
 #include "drivers/gl_context.h"
 #include "drivers/gles3/rasterizer_gles3.h"
+
 #include "servers/rasterizer_checked.h"
 #include "servers/visual_server.h"
 
@@ -13,12 +14,11 @@
 #include "core/threads.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <cmath>
 #include <optional>
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace cl::demo {
 
@@ -100,8 +100,8 @@ Expected<std::unique_ptr<Stage>> Stage::open(const Options& options, const scene
     stage->impl_->settings = render_settings(options, settings);
     server->set_settings(stage->impl_->settings);
     const bool to_window = stage->window() != nullptr;
-    stage->impl_->tree = std::make_unique<scene::SceneTree>(std::move(server),
-                                                            scene::ViewportOptions{size, to_window});
+    stage->impl_->tree =
+        std::make_unique<scene::SceneTree>(std::move(server), scene::ViewportOptions{size, to_window});
     if (options.gi_mode == GIMode::Auto) {
         log_debug("gi auto: drawn as cones until a better method is built in");
     }
@@ -116,8 +116,8 @@ Status Stage::show(std::unique_ptr<scene::Node> root, const Options& options) {
     if (!options.camera_path.empty()) {
         auto* camera = scene_root.get_node_as<scene::Camera>(options.camera_path);
         if (!camera) {
-            return Error{ErrorCode::NotFound,
-                         fmt::format("--camera: expected the path of a Camera, found {}", options.camera_path)};
+            return Error{ErrorCode::NotFound, fmt::format("--camera: expected the path of a Camera, found {}",
+                                                          options.camera_path)};
         }
         camera->make_current();
     }
@@ -127,11 +127,21 @@ Status Stage::show(std::unique_ptr<scene::Node> root, const Options& options) {
     return {};
 }
 
-scene::SceneTree& Stage::tree() noexcept { return *impl_->tree; }
-VisualServer& Stage::server() noexcept { return *impl_->tree->server(); }
-drivers::Window* Stage::window() noexcept { return impl_->rasterizer->context().window(); }
-glm::ivec2 Stage::window_size() const { return impl_->rasterizer->context().size(); }
-void Stage::present() { impl_->rasterizer->present(); }
+scene::SceneTree& Stage::tree() noexcept {
+    return *impl_->tree;
+}
+VisualServer& Stage::server() noexcept {
+    return *impl_->tree->server();
+}
+drivers::Window* Stage::window() noexcept {
+    return impl_->rasterizer->context().window();
+}
+glm::ivec2 Stage::window_size() const {
+    return impl_->rasterizer->context().size();
+}
+void Stage::present() {
+    impl_->rasterizer->present();
+}
 
 void Stage::set_gi_mode(GIMode mode) {
     impl_->settings.gi_mode = mode;

@@ -30,8 +30,8 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    /// Puts the scene in the tree and makes the camera of `options` current: that of `--camera`, else the scene's
-    /// current one, else one that frames the scene.
+    /// Puts the scene in the tree and makes the camera of `options` current: that of `--camera`, else the
+    /// scene's current one, else one that frames the scene.
     [[nodiscard]] Status show(std::unique_ptr<scene::Node> root, const Options& options);
 
     [[nodiscard]] scene::SceneTree& tree() noexcept;
