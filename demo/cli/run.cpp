@@ -48,6 +48,8 @@ Status run_frames(Stage& stage, const Options& options, std::vector<double>& tim
     scene::Camera& camera = *stage.tree().world().current_camera();
     FlyCamera fly(camera.global_transform());
     FrameTimeTitle title;
+    stage.tree().step(0.0);
+    stage.server().settle(); // the first frame is not dark
     Stopwatch frame;
     for (int64_t n = 0; !options.frames || n < *options.frames; ++n) {
         const drivers::InputState& input = window.poll();
