@@ -17,10 +17,6 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f;
 
-bool is_float(PixelFormat format) {
-    return format >= PixelFormat::RF;
-}
-
 gl::SamplerDesc sampler_of(const TextureParams& params) {
     gl::SamplerDesc sampler;
     sampler.filter = params.filter ? gl::Filter::Linear : gl::Filter::Nearest;
@@ -109,7 +105,7 @@ Expected<RID> TextureStorage::create(const Image& image, const TextureParams& pa
                      fmt::format("expected {} bytes for an image of {}x{}, found {}", wanted, image.size.x,
                                  image.size.y, image.data.size())};
     }
-    const bool floats = is_float(image.format);
+    const bool floats = is_float_format(image.format);
     gl::Format format = space == TextureColorSpace::Srgb ? gl::Format::Srgb8Alpha8 : gl::Format::RGBA8;
     if (floats) {
         format = gl::Format::RGBA16F;

@@ -55,6 +55,11 @@ bool has(WriteMask mask, WriteMask bit) {
 
 State::State() : capabilities_(Capabilities::query()) {
     make_current();
+    // Whoever had the context before us may have left anything: make what the mirror starts with true.
+    glUseProgram(0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDisable(GL_SCISSOR_TEST);
     apply_workarounds(capabilities_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1); // our texels are tightly packed, also of three bytes
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -64,7 +69,6 @@ State::State() : capabilities_(Capabilities::query()) {
     default_vertex_array_ = create(ObjectKind::VertexArray);
     bind_vertex_array(0);
     apply(DrawState{});
-    set_scissor(std::nullopt);
 }
 
 State::~State() {

@@ -27,7 +27,8 @@ inline std::vector<glm::vec4> probe_fragments(std::string_view body, int pixels,
                                  "\nlayout(location = 0) out vec4 out_color;\n"
                                  "void main() { out_color = probe(int(gl_FragCoord.x)); }\n";
     static constexpr std::string_view kFiles[] = {"probe"};
-    const gl::ShaderSource source{"probe", kVertex, fragment, kFiles, {}, samplers, {}, {}, {}};
+    const gl::ShaderSource source{
+        .name = "probe", .vertex = kVertex, .fragment = fragment, .files = kFiles, .samplers = samplers};
     Expected<gl::Program> program = gl::Program::create(source);
     REQUIRE_MESSAGE(program, program.error().to_string());
     Expected<gl::Texture2D> target =

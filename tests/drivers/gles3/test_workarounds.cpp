@@ -21,16 +21,11 @@ namespace {
 Expected<gl::Program> white_program() {
     static constexpr std::string_view kFiles[] = {"white"};
     static constexpr gl::ShaderSource kSource{
-        "white",
-        "layout(location = 0) in vec2 a_position;\n"
-        "void main() { gl_Position = vec4(a_position, 0.0, 1.0); gl_PointSize = 4.0; }\n",
-        "layout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n",
-        kFiles,
-        {},
-        {},
-        {},
-        {},
-        {}};
+        .name = "white",
+        .vertex = "layout(location = 0) in vec2 a_position;\n"
+                  "void main() { gl_Position = vec4(a_position, 0.0, 1.0); gl_PointSize = 4.0; }\n",
+        .fragment = "layout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+        .files = kFiles};
     return gl::Program::create(kSource);
 }
 
