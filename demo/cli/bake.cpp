@@ -119,10 +119,10 @@ int run_bake(const Options& options) {
     const Stopwatch total;
     Diagnostics diagnostics;
     Expected<LoadedScene> loaded = load_scene(options, diagnostics);
-    print_warnings(diagnostics, options.verbosity);
     if (!loaded) {
         return fail(loaded.error());
     }
+    print_warnings(diagnostics, options.verbosity);
     scene::Node& root = *loaded->root;
     const Expected<std::vector<scene::GIProbe*>> probes = choose_probes(root, options);
     if (!probes) {

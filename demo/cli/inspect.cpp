@@ -14,10 +14,10 @@ namespace {
 int show_tree(const Options& options) {
     Diagnostics diagnostics;
     Expected<LoadedScene> loaded = load_scene(options, diagnostics);
-    print_warnings(diagnostics, options.verbosity);
     if (!loaded) {
         return fail(loaded.error());
     }
+    print_warnings(diagnostics, options.verbosity);
     std::cout << (options.as_json ? tree_json(*loaded->root) : tree_text(*loaded->root));
     return kDone;
 }

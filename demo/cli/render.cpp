@@ -117,10 +117,10 @@ int run_render(const Options& options) {
     }
     Diagnostics diagnostics;
     Expected<LoadedScene> loaded = load_scene(options, diagnostics);
-    print_warnings(diagnostics, options.verbosity);
     if (!loaded) {
         return fail(loaded.error());
     }
+    print_warnings(diagnostics, options.verbosity);
     Expected<std::unique_ptr<Stage>> stage = Stage::open(options, loaded->settings);
     if (!stage) {
         return fail(stage.error(), kNoDriver);

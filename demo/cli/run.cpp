@@ -84,10 +84,10 @@ Status run_frames(Stage& stage, const Options& options, std::vector<double>& tim
 int run_live(const Options& options) {
     Diagnostics diagnostics;
     Expected<LoadedScene> loaded = load_scene(options, diagnostics);
-    print_warnings(diagnostics, options.verbosity);
     if (!loaded) {
         return fail(loaded.error());
     }
+    print_warnings(diagnostics, options.verbosity);
     Options windowed = options;
     windowed.driver = "window";
     Expected<std::unique_ptr<Stage>> stage = Stage::open(windowed, loaded->settings);
