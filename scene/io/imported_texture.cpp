@@ -81,13 +81,13 @@ std::vector<Expected<Ref<StreamTexture>>> import_textures(std::span<const fs::pa
             diagnostics.warn(w.where, w.message);
         }
         if (!*import.image) {
-            textures.push_back(import.image->error());
+            textures.emplace_back(import.image->error());
             continue;
         }
         auto texture = make_ref<StreamTexture>();
         texture->set_flags(import.flags);
         texture->set_image(std::make_shared<const Image>(std::move(**import.image)));
-        textures.push_back(std::move(texture));
+        textures.emplace_back(std::move(texture));
     }
     return textures;
 }

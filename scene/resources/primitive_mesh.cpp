@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace cl::scene {
 
 namespace {
@@ -59,6 +61,15 @@ void PrimitiveMesh::set_material(Ref<Material> material) {
 void PrimitiveMesh::set_flip_faces(bool flip) {
     flip_faces_ = flip;
     shape_changed();
+}
+
+SetResult PrimitiveMesh::check_vertex_count(double count) {
+    refusal_.clear();
+    if (count <= kMaxVertices) {
+        return SetResult::Done;
+    }
+    refusal_ = fmt::format("expected a shape of at most {:.0f} vertices, found {:.0f}", kMaxVertices, count);
+    return SetResult::Refused;
 }
 
 void PrimitiveMesh::shape_changed() {

@@ -7,25 +7,22 @@
 
 namespace cl::scene {
 
-/// A number in a file must not take the memory of the machine.
-inline constexpr double kMaxShapeVertices = 4.0e6;
-
 /// A primitive mesh whose parameters are a Shape struct. Each class below binds the struct's fields as properties.
 template <typename Shape>
 class ShapeMesh : public PrimitiveMesh {
 public:
     ShapeMesh() = default;
-    explicit ShapeMesh(const Shape& shape) { set_shape(shape); }
+    explicit ShapeMesh(const Shape& shape) { static_cast<void>(set_shape(shape)); }
     [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
-    /// Counts below their least are taken to it; Refused beyond kMaxShapeVertices.
+    /// Counts below their least are taken to it; Refused beyond kMaxVertices.
     SetResult set_shape(const Shape& shape) {
         const Shape wanted = sanitized(shape);
-        if (vertex_count(wanted) > kMaxShapeVertices) {
-            return SetResult::Refused;
+        const SetResult result = check_vertex_count(vertex_count(wanted));
+        if (result == SetResult::Done) {
+            shape_ = wanted;
+            shape_changed();
         }
-        shape_ = wanted;
-        shape_changed();
-        return SetResult::Done;
+        return result;
     }
 
 protected:
