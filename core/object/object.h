@@ -15,7 +15,7 @@
 
 namespace cl {
 
-class ClassInfo; // core/object/class_registry.h
+class ClassInfo; // core/object/class_info.h
 class Object;
 
 /// What became of an assignment.

@@ -1,10 +1,14 @@
 #pragma once
 
-// Template bodies of class_registry.h, which includes this file at its end.
-
-#include "core/object/class_registry.h"
+#include "core/object/class_info.h"
+#include "core/object/variant_cast.h"
 
 #include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -17,6 +21,7 @@ namespace detail {
 /// @param index  position of the argument, from 0
 [[nodiscard]] Error wrong_argument_type(size_t index, Variant::Type expected, Variant::Type found);
 
+/// Calls member function `f` of the T behind `object` with the arguments converted to Args.
 template <typename T, typename F, typename R, typename... Args, size_t... I>
 Expected<Variant> invoke_converted(F f, Object& object, std::span<const Variant> given,
                                    std::index_sequence<I...>) {
@@ -41,6 +46,7 @@ Expected<Variant> invoke_converted(F f, Object& object, std::span<const Variant>
     }
 }
 
+/// The description of a member function of T or a base, with `call` bound to it.
 template <typename T, typename R, typename... Args, typename F>
 MethodInfo make_method(std::string_view name, F f, std::string doc) {
     MethodInfo method;
@@ -57,49 +63,5 @@ MethodInfo make_method(std::string_view name, F f, std::string doc) {
 }
 
 } // namespace detail
-
-template <typename T>
-template <typename C, typename R, typename... Args>
-requires std::is_base_of_v<C, T> ClassBuilder<T>
-&ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...), std::string doc) {
-    info_.methods.push_back(detail::make_method<T, R, Args...>(name, f, std::move(doc)));
-    return *this;
-}
-
-template <typename T>
-template <typename C, typename R, typename... Args>
-requires std::is_base_of_v<C, T> ClassBuilder<T>
-&ClassBuilder<T>::method(std::string_view name, R (C::*f)(Args...) const, std::string doc) {
-    info_.methods.push_back(detail::make_method<T, R, Args...>(name, f, std::move(doc)));
-    return *this;
-}
-
-template <typename T, typename Base>
-const ClassInfo& ClassRegistry::add() {
-    static_assert(std::is_base_of_v<Object, T>, "only Objects have classes in the registry");
-    if (const ClassInfo* known = find(std::type_index(typeid(T)))) {
-        return *known;
-    }
-    const ClassInfo* parent = nullptr;
-    if constexpr (!std::is_void_v<Base>) {
-        static_assert(std::is_base_of_v<Base, T> && !std::is_same_v<Base, T>, "Base is not a base of T");
-        parent = find(std::type_index(typeid(Base)));
-        CL_ASSERT(parent, "register the base class before the derived one");
-    }
-    ClassInfo& info = insert(T::kClassName, std::type_index(typeid(T)), parent);
-    if constexpr (std::is_same_v<T, Object>) {
-        info.is_instance = [](const Object&) { return true; };
-    } else {
-        info.is_instance = [](const Object& o) { return dynamic_cast<const T*>(&o) != nullptr; };
-    }
-    if constexpr (std::is_default_constructible_v<T>) { // false for classes with pure virtual functions
-        info.create = []() -> std::unique_ptr<Object> { return std::make_unique<T>(); };
-    }
-    if constexpr (requires(ClassBuilder<T> & builder) { T::bind(builder); }) {
-        ClassBuilder<T> builder(info);
-        T::bind(builder);
-    }
-    return info;
-}
 
 } // namespace cl
