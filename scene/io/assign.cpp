@@ -5,9 +5,9 @@
 
 #include "core/object/class_registry.h"
 
-#include <string>
-
 #include <fmt/format.h>
+
+#include <string>
 
 namespace cl::scene {
 
@@ -28,15 +28,19 @@ std::string expected_by(const Object& object, const StringName& property) {
     if (!info) {
         return "a value of another type";
     }
-    return info->hint == PropertyHint::ResourceType ? "a " + info->hint_text : std::string(type_name(info->type));
+    return info->hint == PropertyHint::ResourceType ? "a " + info->hint_text
+                                                    : std::string(type_name(info->type));
 }
 
 std::string found_in(const Variant& value) {
     const Reference* object = value.to_object();
-    return object ? "a " + object->class_name().str() : value.is_nil() ? "null" : std::string(type_name(value.type()));
+    return object           ? "a " + object->class_name().str()
+           : value.is_nil() ? "null"
+                            : std::string(type_name(value.type()));
 }
 
-Status wrong_type(Object& object, const TextAssignment& assignment, const Variant& value, Diagnostics& diagnostics) {
+Status wrong_type(Object& object, const TextAssignment& assignment, const Variant& value,
+                  Diagnostics& diagnostics) {
     const StringName property(assignment.key);
     const std::string name = fmt::format("{}.{}", object.class_name().view(), assignment.key);
     const std::string message =
@@ -52,11 +56,13 @@ Status wrong_type(Object& object, const TextAssignment& assignment, const Varian
     return {};
 }
 
-Status refused(const Object& object, const TextAssignment& assignment, const Variant& value, Diagnostics& diagnostics) {
+Status refused(const Object& object, const TextAssignment& assignment, const Variant& value,
+               Diagnostics& diagnostics) {
     const std::string name = fmt::format("{}.{}", object.class_name().view(), assignment.key);
     const auto* explains = dynamic_cast<const ExplainsRefusal*>(&object);
     if (explains && !explains->refusal().empty()) {
-        return Error{ErrorCode::ParseError, fmt::format("{}: {}", name, explains->refusal()), assignment.value_where};
+        return Error{ErrorCode::ParseError, fmt::format("{}: {}", name, explains->refusal()),
+                     assignment.value_where};
     }
     diagnostics.warn(assignment.value_where,
                      fmt::format("{}: expected a value in range, found {}, which is left out", name,
@@ -76,21 +82,25 @@ void warn_unknown_property(const Object& object, const TextAssignment& assignmen
         return;
     }
     const std::string_view class_name = object.class_name().view();
-    diagnostics.warn(assignment.where,
-                     fmt::format("{} has no property \"{}\": kept, without effect", class_name, assignment.key),
-                     fmt::format("unknown property: {}.{}", class_name, assignment.key));
+    diagnostics.warn(
+        assignment.where,
+        fmt::format("{} has no property \"{}\": kept, without effect", class_name, assignment.key),
+        fmt::format("unknown property: {}.{}", class_name, assignment.key));
 }
 
 void warn_unknown_node_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics) {
-    diagnostics.warn(where, fmt::format("nodes of class {} are kept, without effect", type), "node class: " + type);
+    diagnostics.warn(where, fmt::format("nodes of class {} are kept, without effect", type),
+                     "node class: " + type);
 }
 
-void warn_unknown_resource_class(const std::string& type, const SourceLocation& where, Diagnostics& diagnostics) {
+void warn_unknown_resource_class(const std::string& type, const SourceLocation& where,
+                                 Diagnostics& diagnostics) {
     diagnostics.warn(where, fmt::format("resources of class {} are kept, without effect", type),
                      "resource class: " + type);
 }
 
-Status assign(Object& object, const TextAssignment& assignment, const Variant& value, Diagnostics& diagnostics) {
+Status assign(Object& object, const TextAssignment& assignment, const Variant& value,
+              Diagnostics& diagnostics) {
     switch (object.set(StringName(assignment.key), value)) {
     case SetResult::Done:
         return {};

@@ -7,7 +7,8 @@
 
 namespace cl::scene {
 
-Expected<ConfigFile> ConfigFile::parse(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+Expected<ConfigFile> ConfigFile::parse(std::string_view text, const std::string& name,
+                                       Diagnostics& diagnostics) {
     ConfigFile config;
     VariantReadOptions options;
     options.diagnostics = &diagnostics;

@@ -17,9 +17,11 @@ public:
     /// @return the first error of the text, with its place.
     [[nodiscard]] static Expected<ConfigFile> parse(std::string_view text, const std::string& name,
                                                     Diagnostics& diagnostics);
-    [[nodiscard]] static Expected<ConfigFile> load(const std::filesystem::path& file, Diagnostics& diagnostics);
+    [[nodiscard]] static Expected<ConfigFile> load(const std::filesystem::path& file,
+                                                   Diagnostics& diagnostics);
 
-    /// "section/key", or "key" before the first section; of a key given twice the last. nullptr if there is none.
+    /// "section/key", or "key" before the first section; of a key given twice the last. nullptr if there is
+    /// none.
     [[nodiscard]] const Variant* find(std::string_view key) const noexcept;
     /// The value if it is a number (or a bool), else `otherwise`.
     [[nodiscard]] int64_t int_or(std::string_view key, int64_t otherwise) const noexcept;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kImageSuffixes{"png", "jpg", "jpeg", "hdr", "exr", "webp",
+constexpr std::array<std::string_view, 11> kImageSuffixes{"png", "jpg", "jpeg", "hdr",  "exr", "webp",
                                                           "bmp", "tga", "svg",  "svgz", "dds"};
 
 struct Import {
@@ -50,7 +50,8 @@ void load(const fs::path& file, Import& import) {
     if (const Expected<ConfigFile> config = ConfigFile::load(settings, import.diagnostics)) {
         import.flags = flags_of(*config);
     } else {
-        import.diagnostics.warn(config.error().where, config.error().message + "; the image's settings are not used");
+        import.diagnostics.warn(config.error().where,
+                                config.error().message + "; the image's settings are not used");
     }
 }
 
@@ -67,7 +68,8 @@ bool is_image_name(std::string_view path) noexcept {
     return std::find(kImageSuffixes.begin(), kImageSuffixes.end(), suffix) != kImageSuffixes.end();
 }
 
-std::vector<Expected<Ref<StreamTexture>>> import_textures(std::span<const fs::path> files, Diagnostics& diagnostics) {
+std::vector<Expected<Ref<StreamTexture>>> import_textures(std::span<const fs::path> files,
+                                                          Diagnostics& diagnostics) {
     std::vector<Import> imports(files.size());
     parallel_for(files.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {

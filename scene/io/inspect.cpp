@@ -7,9 +7,9 @@
 
 #include "servers/gi/probe_data.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace cl::scene {
 
@@ -49,7 +49,8 @@ std::string shown_text(const Variant& value) {
 ShownProperties shown(const Assignments& assignments) {
     ShownProperties properties;
     for (const TextAssignment& a : assignments) {
-        const auto same = std::find_if(properties.begin(), properties.end(), [&](const auto& p) { return p.first == a.key; });
+        const auto same = std::find_if(properties.begin(), properties.end(),
+                                       [&](const auto& p) { return p.first == a.key; });
         if (same != properties.end()) {
             same->second = shown_text(a.value); // of a key given twice the last counts
         } else {
@@ -71,7 +72,9 @@ InspectedNode inspect_node(const SceneFile& file, const NodeEntry& entry) {
     node.properties = shown(entry.properties);
     if (const ResourceLink* link = ResourceLink::in(entry.instance)) {
         const ExtEntry* ext = file.find_ext(link->id());
-        node.instance = link->kind() == ResourceLink::Kind::Path ? link->path() : ext ? ext->path : std::string();
+        node.instance = link->kind() == ResourceLink::Kind::Path ? link->path()
+                        : ext                                    ? ext->path
+                                                                 : std::string();
     } else if (!entry.instance_placeholder.empty()) {
         node.type = "InstancePlaceholder";
     } else if (!entry.type.empty()) {
@@ -92,7 +95,8 @@ Expected<InspectedProbe> inspect_probe(const SceneFile& file) {
     }
     const Expected<gi::Octree> octree = gi::decode_octree(data->span());
     if (!octree) {
-        return Error{octree.error().code, "GIProbeData.dynamic_data: " + octree.error().message, cells->value_where};
+        return Error{octree.error().code, "GIProbeData.dynamic_data: " + octree.error().message,
+                     cells->value_where};
     }
     probe.size = octree->dims;
     probe.cells = static_cast<uint32_t>(octree->cells.size());
@@ -107,7 +111,8 @@ void inspect_resources(const SceneFile& file, Inspection& inspection) {
         inspection.resources.push_back({InspectedResource::Kind::Ext, e.id, e.type, e.path, {}});
     }
     for (const SubEntry& s : file.sub_resources) {
-        inspection.resources.push_back({InspectedResource::Kind::Sub, s.id, s.type, std::nullopt, shown(s.properties)});
+        inspection.resources.push_back(
+            {InspectedResource::Kind::Sub, s.id, s.type, std::nullopt, shown(s.properties)});
     }
 }
 

@@ -4,14 +4,14 @@
 #include "core/expected.h"
 #include "core/math/aabb.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 namespace cl::scene {
 
@@ -23,8 +23,8 @@ using ShownProperties = std::vector<std::pair<std::string, std::string>>;
 inline constexpr size_t kMaxShownText = 4096;
 
 struct InspectedNode {
-    std::string path;                    ///< ".", "./Ball"
-    std::optional<std::string> type;     ///< none: an instance or an override
+    std::string path;                ///< ".", "./Ball"
+    std::optional<std::string> type; ///< none: an instance or an override
     std::vector<std::string> groups;
     std::optional<std::string> instance; ///< path of the scene
     std::optional<int64_t> index;

@@ -12,9 +12,9 @@ bool contains_link(const Variant& value) {
         return std::any_of(array->begin(), array->end(), contains_link);
     }
     if (const Dictionary* dictionary = value.get_if<Dictionary>()) {
-        return std::any_of(dictionary->entries().begin(), dictionary->entries().end(), [](const Dictionary::Entry& e) {
-            return contains_link(e.first) || contains_link(e.second);
-        });
+        return std::any_of(
+            dictionary->entries().begin(), dictionary->entries().end(),
+            [](const Dictionary::Entry& e) { return contains_link(e.first) || contains_link(e.second); });
     }
     return ResourceLink::in(value) != nullptr;
 }

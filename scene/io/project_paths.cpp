@@ -1,8 +1,8 @@
 #include "scene/io/project_paths.h"
 
-#include <system_error>
-
 #include <fmt/format.h>
+
+#include <system_error>
 
 namespace cl::scene {
 
@@ -44,28 +44,33 @@ ProjectPaths ProjectPaths::containing(const fs::path& file) {
 
 Expected<fs::path> ProjectPaths::file_of(std::string_view path, const fs::path& referrer) const {
     if (path.substr(0, kResource.size()) == kResource) {
-        // A leading '/' after the scheme must not make the path absolute: res:///etc is a file of the project.
+        // A leading '/' after the scheme must not make the path absolute: res:///etc is a file of the
+        // project.
         std::string_view inside = path.substr(kResource.size());
         while (!inside.empty() && inside.front() == '/') {
             inside.remove_prefix(1);
         }
         const fs::path relative = fs::path(std::string(inside)).lexically_normal();
         if (!is_inside(relative)) {
-            return Error{ErrorCode::NotFound, fmt::format("expected a path inside the project, found \"{}\"", path)};
+            return Error{ErrorCode::NotFound,
+                         fmt::format("expected a path inside the project, found \"{}\"", path)};
         }
         return root_ / relative;
     }
     if (path.find("://") != std::string_view::npos) {
-        return Error{ErrorCode::Unsupported, fmt::format("expected a path that starts with res://, found \"{}\"", path)};
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("expected a path that starts with res://, found \"{}\"", path)};
     }
     const fs::path plain{std::string(path)};
-    return plain.is_absolute() ? plain.lexically_normal() : (referrer.parent_path() / plain).lexically_normal();
+    return plain.is_absolute() ? plain.lexically_normal()
+                               : (referrer.parent_path() / plain).lexically_normal();
 }
 
 std::string ProjectPaths::resource_path_of(const fs::path& file) const {
     const fs::path absolute = normalized(file);
     const fs::path relative = absolute.lexically_relative(root_);
-    return is_inside(relative) ? std::string(kResource) + relative.generic_string() : absolute.generic_string();
+    return is_inside(relative) ? std::string(kResource) + relative.generic_string()
+                               : absolute.generic_string();
 }
 
 } // namespace cl::scene

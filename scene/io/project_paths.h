@@ -8,7 +8,8 @@
 
 namespace cl::scene {
 
-/// Where `res://` is: the nearest folder upward of a scene that holds a project.godot, else the scene's own folder.
+/// Where `res://` is: the nearest folder upward of a scene that holds a project.godot, else the scene's own
+/// folder.
 class ProjectPaths {
 public:
     /// @param file  a scene or resource, or a folder; need not exist.
@@ -19,8 +20,8 @@ public:
     /// False if there is no project.godot: root() is then the scene's folder.
     [[nodiscard]] bool has_project_file() const noexcept { return has_project_file_; }
 
-    /// The file behind a path as scenes spell it: "res://a/b.png", an absolute one, or one relative to the folder
-    /// of the file that refers to it.
+    /// The file behind a path as scenes spell it: "res://a/b.png", an absolute one, or one relative to the
+    /// folder of the file that refers to it.
     /// @param referrer  that file, as an absolute path.
     /// @return NotFound if "res://" leads out of the project, Unsupported for "user://" and other schemes.
     [[nodiscard]] Expected<std::filesystem::path> file_of(std::string_view path,

@@ -16,7 +16,8 @@ public:
     void read(std::string_view key, int& setting, int least, int most) {
         const int64_t value = config_.int_or(key, setting);
         if (value < least || value > most) {
-            diagnostics_.warn({file_}, fmt::format("{}: expected {} to {}, found {}", key, least, most, value));
+            diagnostics_.warn({file_},
+                              fmt::format("{}: expected {} to {}, found {}", key, least, most, value));
             return;
         }
         setting = static_cast<int>(value);

@@ -6,9 +6,9 @@
 #include "core/expected.h"
 #include "core/math/color.h"
 
-#include <string>
-
 #include <glm/vec2.hpp>
+
+#include <string>
 
 namespace cl::scene {
 
@@ -26,9 +26,10 @@ struct ProjectSettings {
     int msaa = 0; ///< 0 off, 1 2x, 2 4x, ...
 };
 
-/// The defaults if the project has no project.godot; values of a wrong type or out of range are warned about and
-/// keep their default.
+/// The defaults if the project has no project.godot; values of a wrong type or out of range are warned about
+/// and keep their default.
 /// @return the error of a file that is there but cannot be read.
-[[nodiscard]] Expected<ProjectSettings> load_project_settings(const ProjectPaths& paths, Diagnostics& diagnostics);
+[[nodiscard]] Expected<ProjectSettings> load_project_settings(const ProjectPaths& paths,
+                                                              Diagnostics& diagnostics);
 
 } // namespace cl::scene

@@ -6,10 +6,10 @@
 
 #include "core/object/class_registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -59,11 +59,13 @@ Expected<Ref<Resource>> ResourceLoader::load(const fs::path& file) {
     }
     const fs::path absolute = normalized(file);
     if (std::find(loading_.begin(), loading_.end(), absolute) != loading_.end()) {
-        return Error{ErrorCode::ParseError, "expected a file that does not need itself, found a circle of files"};
+        return Error{ErrorCode::ParseError,
+                     "expected a file that does not need itself, found a circle of files"};
     }
     if (loading_.size() >= kMaxChain) {
-        return Error{ErrorCode::OutOfMemory,
-                     fmt::format("expected at most {} files that need one another in a chain, found more", kMaxChain)};
+        return Error{
+            ErrorCode::OutOfMemory,
+            fmt::format("expected at most {} files that need one another in a chain, found more", kMaxChain)};
     }
     loading_.push_back(absolute);
     Expected<Ref<Resource>> resource = load_any(file);
@@ -114,9 +116,10 @@ Expected<Ref<PackedScene>> ResourceLoader::load_scene(const fs::path& file) {
     }
     const Ref<PackedScene> scene = resource->cast<PackedScene>();
     if (!scene) {
-        return Error{ErrorCode::ParseError,
-                     fmt::format("expected a scene, found a resource of class {}", (*resource)->class_name().view()),
-                     {file.string(), 1, 1}};
+        return Error{
+            ErrorCode::ParseError,
+            fmt::format("expected a scene, found a resource of class {}", (*resource)->class_name().view()),
+            {file.string(), 1, 1}};
     }
     return scene;
 }

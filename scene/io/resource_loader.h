@@ -19,15 +19,17 @@
 
 namespace cl::scene {
 
-/// Loads the resources and scenes of one project, each file once: users of a file share its resource as long as
-/// the loader lives. Needs register_scene_types().
+/// Loads the resources and scenes of one project, each file once: users of a file share its resource as long
+/// as the loader lives. Needs register_scene_types().
 class ResourceLoader {
 public:
-    /// @param diagnostics  receives a located warning for all that is read but has no effect; outlives the loader
+    /// @param diagnostics  receives a located warning for all that is read but has no effect; outlives the
+    /// loader
     ResourceLoader(ProjectPaths paths, Diagnostics& diagnostics);
 
     /// Reads files that are not in the text format, such as glTF scenes; a null Ref is an error.
-    using Importer = std::function<Expected<Ref<Resource>>(const std::filesystem::path& file, Diagnostics& diagnostics)>;
+    using Importer =
+        std::function<Expected<Ref<Resource>>(const std::filesystem::path& file, Diagnostics& diagnostics)>;
     /// @param suffix  of file names in lower case, without the dot
     void add_importer(std::string suffix, Importer importer);
 

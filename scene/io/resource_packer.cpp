@@ -87,7 +87,8 @@ Variant ResourcePacker::link_to_file(const std::string& path, const std::string&
     ExtEntry entry;
     if (original_) {
         const auto& all = original_->ext_resources;
-        const auto same = std::find_if(all.begin(), all.end(), [&](const ExtEntry& e) { return e.path == path; });
+        const auto same =
+            std::find_if(all.begin(), all.end(), [&](const ExtEntry& e) { return e.path == path; });
         entry = same != all.end() ? *same : entry;
     }
     if (entry.path.empty()) {
@@ -115,7 +116,8 @@ Variant ResourcePacker::pack_resource(const Resource& resource) {
     }
     SubEntry entry;
     entry.type = resource.class_name().str();
-    entry.properties = pack_properties(resource.stored_properties()); // what it needs gets its entry before it
+    entry.properties =
+        pack_properties(resource.stored_properties()); // what it needs gets its entry before it
     entry.id = new_sub_id(resource);
     packing_.erase(&resource);
     sub_ids_.emplace(&resource, entry.id);

@@ -14,8 +14,9 @@
 
 namespace cl::scene {
 
-/// Turns resources into the [ext_resource] and [sub_resource] entries of a file that is put together, and values
-/// that hold them into values with links (spec tscn section 7). Ids that resources had in that file are kept.
+/// Turns resources into the [ext_resource] and [sub_resource] entries of a file that is put together, and
+/// values that hold them into values with links (spec tscn section 7). Ids that resources had in that file
+/// are kept.
 class ResourcePacker {
 public:
     /// @param file      receives the entries
@@ -23,7 +24,8 @@ public:
     /// @param original  the file as it was read, for the ids of its ext resources; may be null
     ResourcePacker(SceneFile& file, std::string path, const SceneFile* original = nullptr);
 
-    /// The value with every resource in it replaced by a link. A resource that contains itself becomes null there.
+    /// The value with every resource in it replaced by a link. A resource that contains itself becomes null
+    /// there.
     [[nodiscard]] Variant pack(const Variant& value);
     /// The assignments that saving an object writes.
     [[nodiscard]] Assignments pack_properties(const std::vector<Object::PropertyValue>& properties);

@@ -39,12 +39,14 @@ NodeEntry& entry_of(SceneFile& file, std::string_view node_path) {
 
 bool refers_to(const Variant& value, int64_t ext_id) {
     if (const Array* array = value.get_if<Array>()) {
-        return std::any_of(array->begin(), array->end(), [=](const Variant& v) { return refers_to(v, ext_id); });
+        return std::any_of(array->begin(), array->end(),
+                           [=](const Variant& v) { return refers_to(v, ext_id); });
     }
     if (const Dictionary* dictionary = value.get_if<Dictionary>()) {
-        return std::any_of(dictionary->entries().begin(), dictionary->entries().end(), [=](const Dictionary::Entry& e) {
-            return refers_to(e.first, ext_id) || refers_to(e.second, ext_id);
-        });
+        return std::any_of(dictionary->entries().begin(), dictionary->entries().end(),
+                           [=](const Dictionary::Entry& e) {
+                               return refers_to(e.first, ext_id) || refers_to(e.second, ext_id);
+                           });
     }
     const ResourceLink* link = ResourceLink::in(value);
     return link && link->kind() == ResourceLink::Kind::Ext && link->id() == ext_id;
@@ -60,7 +62,9 @@ bool is_used(const SceneFile& file, int64_t ext_id) {
            std::any_of(file.sub_resources.begin(), file.sub_resources.end(),
                        [=](const SubEntry& s) { return refers_to(s.properties, ext_id); }) ||
            std::any_of(file.nodes.begin(), file.nodes.end(),
-                       [=](const NodeEntry& n) { return refers_to(n.instance, ext_id) || refers_to(n.properties, ext_id); }) ||
+                       [=](const NodeEntry& n) {
+                           return refers_to(n.instance, ext_id) || refers_to(n.properties, ext_id);
+                       }) ||
            std::any_of(file.connections.begin(), file.connections.end(),
                        [=](const ConnectionEntry& c) { return refers_to(Variant(c.binds), ext_id); });
 }
@@ -103,9 +107,9 @@ void set_assignment(Assignments& assignments, std::string_view key, Variant valu
                           assignments.end());
         return;
     }
-    const auto bookkeeping = std::find_if(assignments.begin(), assignments.end(), [](const TextAssignment& a) {
-        return a.key == "script" || a.key == "__meta__";
-    });
+    const auto bookkeeping =
+        std::find_if(assignments.begin(), assignments.end(),
+                     [](const TextAssignment& a) { return a.key == "script" || a.key == "__meta__"; });
     assignments.insert(bookkeeping, TextAssignment{std::string(key), std::move(value), {}, {}});
 }
 
@@ -117,7 +121,8 @@ void set_node_resource(SceneFile& file, std::string_view node_path, std::string_
     NodeEntry& node = entry_of(file, node_path);
     const TextAssignment* before = find_assignment(node.properties, property);
     const ResourceLink* old_link = before ? ResourceLink::in(before->value) : nullptr;
-    const bool replaces_other = old_link && old_link->kind() == ResourceLink::Kind::Ext && old_link->id() != id;
+    const bool replaces_other =
+        old_link && old_link->kind() == ResourceLink::Kind::Ext && old_link->id() != id;
     const int64_t old_id = old_link ? old_link->id() : 0;
     set_assignment(node.properties, property, make_ref<ResourceLink>(ResourceLink::Kind::Ext, id));
     if (replaces_other) {
@@ -133,7 +138,8 @@ Expected<bool> embed_probe_data(const std::filesystem::path& scene, std::string_
         return file.error();
     }
     const std::string before = scene_file_text(*file);
-    set_node_resource(*file, node_path, "data", ProjectPaths::containing(scene).resource_path_of(data), "GIProbeData");
+    set_node_resource(*file, node_path, "data", ProjectPaths::containing(scene).resource_path_of(data),
+                      "GIProbeData");
     if (scene_file_text(*file) == before) {
         return false;
     }

@@ -11,9 +11,9 @@
 
 namespace cl::scene {
 
-// A text scene or resource as its file says it (spec tscn): nothing looked up, nothing made. References to resources
-// are ResourceLinks in the values. `where` and `tag_text` are empty in parts that did not come from a file; a
-// `tag_text` is written back as it is, so it is emptied when a field of its tag changes.
+// A text scene or resource as its file says it (spec tscn): nothing looked up, nothing made. References to
+// resources are ResourceLinks in the values. `where` and `tag_text` are empty in parts that did not come from
+// a file; a `tag_text` is written back as it is, so it is emptied when a field of its tag changes.
 
 using Assignments = std::vector<TextAssignment>;
 
@@ -40,7 +40,7 @@ struct NodeEntry {
     std::string owner;
     std::optional<int64_t> index;
     std::vector<std::string> groups;
-    Variant instance;                  ///< a ResourceLink, or Nil
+    Variant instance; ///< a ResourceLink, or Nil
     std::string instance_placeholder;
     Assignments properties;
     std::string tag_text;
@@ -85,6 +85,7 @@ struct SceneFile {
 };
 
 /// The assignment to `key` that counts (the last), or nullptr.
-[[nodiscard]] const TextAssignment* find_assignment(const Assignments& assignments, std::string_view key) noexcept;
+[[nodiscard]] const TextAssignment* find_assignment(const Assignments& assignments,
+                                                    std::string_view key) noexcept;
 
 } // namespace cl::scene

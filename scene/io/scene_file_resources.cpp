@@ -9,9 +9,9 @@
 
 #include "core/object/class_registry.h"
 
-#include <fstream>
-
 #include <fmt/format.h>
+
+#include <fstream>
 
 namespace cl::scene {
 
@@ -36,7 +36,8 @@ bool is_text_resource(const fs::path& file) {
     char start[4] = {};
     stream.read(start, sizeof start);
     const std::string_view magic(start, static_cast<size_t>(stream.gcount()));
-    return magic.substr(0, 3) == "[gd" || magic == "RSRC" || magic == "RSCC"; // the binary ones: a clear error follows
+    return magic.substr(0, 3) == "[gd" || magic == "RSRC" ||
+           magic == "RSCC"; // the binary ones: a clear error follows
 }
 
 Ref<Resource> missing_resource(const std::string& type) {
@@ -150,7 +151,8 @@ Expected<Ref<Resource>> SceneFileResources::load_ext(const ExtEntry& entry) {
     }
     Expected<Ref<Resource>> resource =
         has_use ? load_known_kind(entry, *file)
-                : stand_in(entry.type, entry.where, fmt::format("files of class {} are kept, without effect", entry.type));
+                : stand_in(entry.type, entry.where,
+                           fmt::format("files of class {} are kept, without effect", entry.type));
     if (resource && (*resource)->path().empty()) {
         (*resource)->set_path(entry.path);
     }
@@ -167,7 +169,8 @@ Expected<Ref<Resource>> SceneFileResources::load_known_kind(const ExtEntry& entr
                     fmt::format("{}: files of this kind are kept, without effect", entry.path));
 }
 
-Ref<Resource> SceneFileResources::stand_in(const std::string& type, const SourceLocation& where, std::string reason) {
+Ref<Resource> SceneFileResources::stand_in(const std::string& type, const SourceLocation& where,
+                                           std::string reason) {
     diagnostics_.warn(where, reason, reason);
     return missing_resource(type);
 }
@@ -181,15 +184,18 @@ Expected<Ref<Resource>> SceneFileResources::create(const std::string& type, cons
         return missing_resource(type);
     }
     if (!info->is_a(StringName(Resource::kClassName))) {
-        return Error{ErrorCode::ParseError, fmt::format("expected the class of a resource, found \"{}\"", type), where};
+        return Error{ErrorCode::ParseError,
+                     fmt::format("expected the class of a resource, found \"{}\"", type), where};
     }
     const Ref<Resource> resource = registry.create_ref(class_name).cast<Resource>();
     if (!resource) {
-        return Error{ErrorCode::ParseError, fmt::format("expected a class that has objects, found the abstract \"{}\"", type),
+        return Error{ErrorCode::ParseError,
+                     fmt::format("expected a class that has objects, found the abstract \"{}\"", type),
                      where};
     }
     if (resource.cast<ShaderMaterial>()) {
-        diagnostics_.warn(where, "materials of class ShaderMaterial are drawn as plain white", "ShaderMaterial");
+        diagnostics_.warn(where, "materials of class ShaderMaterial are drawn as plain white",
+                          "ShaderMaterial");
     }
     return resource;
 }
@@ -204,7 +210,8 @@ Status SceneFileResources::fill(Resource& resource, const Assignments& assignmen
         if (Status assigned = assign(resource, assignment, *value, diagnostics_); !assigned) {
             return assigned;
         }
-        if (const auto* image = dynamic_cast<const ImageResource*>(&resource); image && !image->problem().empty()) {
+        if (const auto* image = dynamic_cast<const ImageResource*>(&resource);
+            image && !image->problem().empty()) {
             diagnostics_.warn(assignment.value_where, image->problem());
         }
     }

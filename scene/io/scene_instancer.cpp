@@ -9,11 +9,11 @@
 
 #include "core/object/class_registry.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <unordered_set>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -42,7 +42,8 @@ public:
     }
 
 private:
-    static Error error_at(const SourceLocation& where, std::string message, ErrorCode code = ErrorCode::ParseError) {
+    static Error error_at(const SourceLocation& where, std::string message,
+                          ErrorCode code = ErrorCode::ParseError) {
         return {code, std::move(message), where};
     }
 
@@ -57,11 +58,13 @@ private:
             }
             parent = find(*entry.parent);
             if (!parent) {
-                return error_at(entry.where, fmt::format("expected the path of a node above as \"parent\", found \"{}\"",
-                                                         *entry.parent));
+                return error_at(entry.where,
+                                fmt::format("expected the path of a node above as \"parent\", found \"{}\"",
+                                            *entry.parent));
             }
         }
-        const bool is_override = entry.type.empty() && entry.instance.is_nil() && entry.instance_placeholder.empty();
+        const bool is_override =
+            entry.type.empty() && entry.instance.is_nil() && entry.instance_placeholder.empty();
         return is_override ? change_existing(entry, *parent) : add_new(entry, parent);
     }
 
@@ -74,8 +77,10 @@ private:
         Node* node = find_child(parent, entry.name);
         if (!node) {
             left_out_.insert(entry.path());
-            diagnostics_.warn(entry.where, fmt::format("expected a node \"{}\" in the instanced scene, found none: left out",
-                                                       entry.path()));
+            diagnostics_.warn(
+                entry.where,
+                fmt::format("expected a node \"{}\" in the instanced scene, found none: left out",
+                            entry.path()));
             return {};
         }
         return fill(entry, *node);
@@ -109,7 +114,8 @@ private:
     /// Null: the node is left out, and a warning said so.
     Expected<std::unique_ptr<Node>> make(const NodeEntry& entry) {
         if (budget_.nodes_left == 0) {
-            return error_at(entry.where, "expected a scene of at most 1048576 nodes, found more", ErrorCode::OutOfMemory);
+            return error_at(entry.where, "expected a scene of at most 1048576 nodes, found more",
+                            ErrorCode::OutOfMemory);
         }
         --budget_.nodes_left;
         std::unique_ptr<Node> node;
@@ -124,7 +130,8 @@ private:
         } else {
             node = std::make_unique<Node>();
             node->set_declared_class("InstancePlaceholder");
-            diagnostics_.warn(entry.where, "instance placeholders are kept, without effect", "InstancePlaceholder");
+            diagnostics_.warn(entry.where, "instance placeholders are kept, without effect",
+                              "InstancePlaceholder");
         }
         if (!entry.name.empty()) {
             node->set_name_verbatim(entry.name);
@@ -161,12 +168,13 @@ private:
             return node;
         }
         if (resource.cast<MissingResource>() && root_) {
-            diagnostics_.warn(entry.where, fmt::format("\"{}\" is left out: its scene {} could not be read", entry.path(),
-                                                       resource->path()));
+            diagnostics_.warn(entry.where, fmt::format("\"{}\" is left out: its scene {} could not be read",
+                                                       entry.path(), resource->path()));
             return std::unique_ptr<Node>();
         }
-        return error_at(entry.where, fmt::format("expected a scene as \"instance\", found {}",
-                                                 resource ? "a " + resource->class_name().str() : std::string("null")));
+        return error_at(entry.where,
+                        fmt::format("expected a scene as \"instance\", found {}",
+                                    resource ? "a " + resource->class_name().str() : std::string("null")));
     }
 
     Status fill(const NodeEntry& entry, Node& node) {

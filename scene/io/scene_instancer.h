@@ -19,7 +19,7 @@ struct InstancingBudget {
 };
 
 /// Makes the nodes of a scene: see PackedScene::instance().
-[[nodiscard]] Expected<std::unique_ptr<Node>> instance_scene(const PackedScene& scene, Diagnostics& diagnostics,
-                                                             InstancingBudget& budget);
+[[nodiscard]] Expected<std::unique_ptr<Node>>
+instance_scene(const PackedScene& scene, Diagnostics& diagnostics, InstancingBudget& budget);
 
 } // namespace cl::scene

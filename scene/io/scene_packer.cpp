@@ -50,7 +50,8 @@ std::vector<std::string> saved_groups(const Node& node, const Node* base) {
 
 class ScenePacker {
 public:
-    ScenePacker(const Node& root, ResourceLoader& loader, Diagnostics& diagnostics, const PackOptions& options)
+    ScenePacker(const Node& root, ResourceLoader& loader, Diagnostics& diagnostics,
+                const PackOptions& options)
         : root_(root), loader_(loader), diagnostics_(diagnostics), original_(options.original),
           packer_(file_, options.path, options.original) {}
 
@@ -93,8 +94,9 @@ private:
 
     /// The scene that the original inherits from; nullptr if it is none.
     [[nodiscard]] const ExtEntry* inherited_scene() const {
-        const ResourceLink* link =
-            original_ && !original_->nodes.empty() ? ResourceLink::in(original_->nodes.front().instance) : nullptr;
+        const ResourceLink* link = original_ && !original_->nodes.empty()
+                                       ? ResourceLink::in(original_->nodes.front().instance)
+                                       : nullptr;
         return link ? original_->find_ext(link->id()) : nullptr;
     }
 
@@ -104,8 +106,9 @@ private:
             return resource.error();
         }
         const Ref<PackedScene> scene = resource->cast<PackedScene>();
-        return scene ? scene->instance(diagnostics_)
-                     : Expected<std::unique_ptr<Node>>(Error{ErrorCode::NotFound, "expected a scene", {path}});
+        return scene
+                   ? scene->instance(diagnostics_)
+                   : Expected<std::unique_ptr<Node>>(Error{ErrorCode::NotFound, "expected a scene", {path}});
     }
 
     Status pack_children(const Node& parent, const Base* base) {
@@ -152,7 +155,8 @@ private:
     }
 
     void write(const Node& node, NodeEntry entry, const Node* base) {
-        entry.properties = packer_.pack_properties(base ? changed_properties(node, *base) : node.stored_properties());
+        entry.properties =
+            packer_.pack_properties(base ? changed_properties(node, *base) : node.stored_properties());
         entry.groups = saved_groups(node, base);
         file_.nodes.push_back(std::move(entry));
     }

@@ -1,9 +1,9 @@
 #include "scene/io/tag_fields.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <optional>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -19,7 +19,8 @@ std::optional<int64_t> int_in(const Variant& value) {
     }
     int64_t number = 0;
     const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
-    return error == std::errc() && end == text->data() + text->size() ? std::optional<int64_t>(number) : std::nullopt;
+    return error == std::errc() && end == text->data() + text->size() ? std::optional<int64_t>(number)
+                                                                      : std::nullopt;
 }
 
 } // namespace
@@ -27,8 +28,8 @@ std::optional<int64_t> int_in(const Variant& value) {
 void TagFields::fail_type(const TextTag::Field& field, std::string_view expected) {
     if (status_) {
         status_ = Error{ErrorCode::ParseError,
-                        fmt::format("expected {} as \"{}\" of [{}], found {}", expected, field.name, tag_.name,
-                                    type_name(field.value.type())),
+                        fmt::format("expected {} as \"{}\" of [{}], found {}", expected, field.name,
+                                    tag_.name, type_name(field.value.type())),
                         field.value_where};
     }
 }
@@ -36,8 +37,9 @@ void TagFields::fail_type(const TextTag::Field& field, std::string_view expected
 const TextTag::Field* TagFields::required(std::string_view name) {
     const TextTag::Field* field = tag_.find(name);
     if (!field && status_) {
-        status_ = Error{ErrorCode::ParseError, fmt::format("expected a field \"{}\" in [{}], found none", name, tag_.name),
-                        tag_.where};
+        status_ =
+            Error{ErrorCode::ParseError,
+                  fmt::format("expected a field \"{}\" in [{}], found none", name, tag_.name), tag_.where};
     }
     return field;
 }

@@ -5,11 +5,11 @@
 
 #include "core/io/file.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <unordered_map>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -60,12 +60,14 @@ private:
     static Expected<Variant> defined_above(const Links& links, int64_t id, std::string_view tag) {
         const auto link = links.find(id);
         if (link == links.end()) {
-            return Error{ErrorCode::ParseError, fmt::format("expected the id of a [{}] above, found {}", tag, id)};
+            return Error{ErrorCode::ParseError,
+                         fmt::format("expected the id of a [{}] above, found {}", tag, id)};
         }
         return link->second;
     }
 
-    static Error error_at(const SourceLocation& where, std::string message, ErrorCode code = ErrorCode::ParseError) {
+    static Error error_at(const SourceLocation& where, std::string message,
+                          ErrorCode code = ErrorCode::ParseError) {
         return {code, std::move(message), where};
     }
 
@@ -77,7 +79,9 @@ private:
         const auto* tag = std::get_if<TextTag>(&*item);
         if (!tag || (tag->name != "gd_scene" && tag->name != "gd_resource")) {
             const auto* assignment = std::get_if<TextAssignment>(&*item);
-            const SourceLocation where = tag ? tag->where : assignment ? assignment->where : reader_.location();
+            const SourceLocation where = tag          ? tag->where
+                                         : assignment ? assignment->where
+                                                      : reader_.location();
             const std::string found = tag          ? "[" + tag->name + "]"
                                       : assignment ? "\"" + assignment->key + "\""
                                                    : "the end of the file";
@@ -93,9 +97,10 @@ private:
             return fields.status();
         }
         if (format > kNewestFormat) {
-            return error_at(tag->find("format")->value_where,
-                            fmt::format("expected format {} or lower, found the newer format {}", kNewestFormat, format),
-                            ErrorCode::Unsupported);
+            return error_at(
+                tag->find("format")->value_where,
+                fmt::format("expected format {} or lower, found the newer format {}", kNewestFormat, format),
+                ErrorCode::Unsupported);
         }
         file_.heading_text = std::string(tag->raw);
         file_.where = tag->where;
@@ -105,14 +110,17 @@ private:
     Status read_tag(const TextTag& tag) {
         target_ = nullptr;
         if (open_sub_resource_) { // complete now: from here on it may be referred to, but not by itself
-            sub_links_.emplace(*open_sub_resource_, make_ref<ResourceLink>(ResourceLink::Kind::Sub, *open_sub_resource_));
+            sub_links_.emplace(*open_sub_resource_,
+                               make_ref<ResourceLink>(ResourceLink::Kind::Sub, *open_sub_resource_));
             open_sub_resource_.reset();
         }
         const bool is_scene = file_.kind == SceneFile::Kind::Scene;
         if (resource_seen_) {
-            return error_at(tag.where, "expected the end of the file after [resource], found [" + tag.name + "]");
+            return error_at(tag.where,
+                            "expected the end of the file after [resource], found [" + tag.name + "]");
         }
-        const bool nodes_started = !file_.nodes.empty() || !file_.connections.empty() || !file_.editables.empty();
+        const bool nodes_started =
+            !file_.nodes.empty() || !file_.connections.empty() || !file_.editables.empty();
         if (!nodes_started && tag.name == "ext_resource") {
             return read_ext_resource(tag);
         }
@@ -193,8 +201,10 @@ private:
         if (const TextTag::Field* instance = tag.find("instance")) {
             const ResourceLink* link = ResourceLink::in(instance->value);
             if (!link || link->kind() == ResourceLink::Kind::Sub) {
-                return error_at(instance->value_where, fmt::format("expected ExtResource( id ) as \"instance\" of [node], found {}",
-                                                                   link ? link->to_text() : std::string(type_name(instance->value.type()))));
+                return error_at(
+                    instance->value_where,
+                    fmt::format("expected ExtResource( id ) as \"instance\" of [node], found {}",
+                                link ? link->to_text() : std::string(type_name(instance->value.type()))));
             }
             entry.instance = instance->value;
         }
@@ -208,14 +218,19 @@ private:
 
     [[nodiscard]] Status check_place(const NodeEntry& entry) const {
         if (!file_.nodes.empty()) {
-            return entry.parent ? Status()
-                                : error_at(entry.where, "expected a field \"parent\" in every [node] but the first, found none");
+            return entry.parent
+                       ? Status()
+                       : error_at(entry.where,
+                                  "expected a field \"parent\" in every [node] but the first, found none");
         }
         if (entry.parent) {
-            return error_at(entry.where, fmt::format("expected no \"parent\" in the first [node], found \"{}\"", *entry.parent));
+            return error_at(
+                entry.where,
+                fmt::format("expected no \"parent\" in the first [node], found \"{}\"", *entry.parent));
         }
         if (entry.type.empty() && entry.instance.is_nil() && entry.instance_placeholder.empty()) {
-            return error_at(entry.where, "expected a \"type\" or an \"instance\" in the first [node], found neither");
+            return error_at(entry.where,
+                            "expected a \"type\" or an \"instance\" in the first [node], found neither");
         }
         return {};
     }
@@ -251,9 +266,13 @@ private:
 
     Status check_end() {
         if (file_.kind == SceneFile::Kind::Resource) {
-            return resource_seen_ ? Status() : error_at(reader_.location(), "expected [resource], found the end of the file");
+            return resource_seen_
+                       ? Status()
+                       : error_at(reader_.location(), "expected [resource], found the end of the file");
         }
-        return file_.nodes.empty() ? error_at(reader_.location(), "expected [node], found the end of the file") : Status();
+        return file_.nodes.empty()
+                   ? error_at(reader_.location(), "expected [node], found the end of the file")
+                   : Status();
     }
 
     Links ext_links_;
@@ -267,7 +286,8 @@ private:
 
 } // namespace
 
-Expected<SceneFile> parse_scene_text(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+Expected<SceneFile> parse_scene_text(std::string_view text, const std::string& name,
+                                     Diagnostics& diagnostics) {
     return SceneTextReader(text, name, diagnostics).read();
 }
 
@@ -278,7 +298,8 @@ Expected<SceneFile> read_scene_file(const std::filesystem::path& file, Diagnosti
     }
     const std::string_view magic = std::string_view(*text).substr(0, 4);
     if (magic == "RSRC" || magic == "RSCC") {
-        return Error{ErrorCode::Unsupported, fmt::format("expected a text scene or resource, found a binary one ({})", magic),
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("expected a text scene or resource, found a binary one ({})", magic),
                      {file.string()}};
     }
     return parse_scene_text(*text, file.string(), diagnostics);

@@ -5,10 +5,10 @@
 #include "core/io/file.h"
 #include "core/variant/variant_writer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -28,18 +28,24 @@ public:
     std::string write(const SceneFile& file) {
         write_heading(file);
         for (const ExtEntry& e : file.ext_resources) {
-            write_tag(e.tag_text, [&] {
-                field("path", e.path);
-                field("type", e.type);
-                out_ += fmt::format(" id={}", e.id);
-            }, "ext_resource");
+            write_tag(
+                e.tag_text,
+                [&] {
+                    field("path", e.path);
+                    field("type", e.type);
+                    out_ += fmt::format(" id={}", e.id);
+                },
+                "ext_resource");
         }
         out_ += file.ext_resources.empty() ? "" : "\n";
         for (const SubEntry& s : file.sub_resources) {
-            write_tag(s.tag_text, [&] {
-                field("type", s.type);
-                out_ += fmt::format(" id={}", s.id);
-            }, "sub_resource");
+            write_tag(
+                s.tag_text,
+                [&] {
+                    field("type", s.type);
+                    out_ += fmt::format(" id={}", s.id);
+                },
+                "sub_resource");
             write_assignments(s.properties);
             out_ += '\n';
         }
@@ -50,15 +56,18 @@ public:
         }
         for (const NodeEntry& n : file.nodes) {
             out_ += &n == &file.nodes.front() ? "" : "\n";
-            write_tag(n.tag_text, [&] { write_node_fields(n); }, "node");
+            write_tag(
+                n.tag_text, [&] { write_node_fields(n); }, "node");
             write_assignments(n.properties);
         }
         for (const ConnectionEntry& c : file.connections) {
-            write_tag(c.tag_text, [&] { write_connection_fields(c); }, "connection");
+            write_tag(
+                c.tag_text, [&] { write_connection_fields(c); }, "connection");
         }
         for (const EditableEntry& e : file.editables) {
             out_ += '\n';
-            write_tag(e.tag_text, [&] { field("path", e.path); }, "editable");
+            write_tag(
+                e.tag_text, [&] { field("path", e.path); }, "editable");
         }
         return std::move(out_);
     }
@@ -78,16 +87,19 @@ private:
     }
 
     void write_heading(const SceneFile& file) {
-        write_tag(file.heading_text, [&] {
-            if (file.kind == SceneFile::Kind::Resource) {
-                field("type", file.resource_type);
-            }
-            const size_t steps = file.ext_resources.size() + file.sub_resources.size() + 1;
-            if (steps > 1) {
-                out_ += fmt::format(" load_steps={}", steps);
-            }
-            out_ += " format=2";
-        }, file.kind == SceneFile::Kind::Resource ? "gd_resource" : "gd_scene");
+        write_tag(
+            file.heading_text,
+            [&] {
+                if (file.kind == SceneFile::Kind::Resource) {
+                    field("type", file.resource_type);
+                }
+                const size_t steps = file.ext_resources.size() + file.sub_resources.size() + 1;
+                if (steps > 1) {
+                    out_ += fmt::format(" load_steps={}", steps);
+                }
+                out_ += " format=2";
+            },
+            file.kind == SceneFile::Kind::Resource ? "gd_resource" : "gd_scene");
         out_ += '\n';
     }
 

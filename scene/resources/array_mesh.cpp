@@ -4,9 +4,9 @@
 
 #include "core/object/class_registry.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
+
+#include <charconv>
 
 namespace cl::scene {
 
@@ -60,7 +60,8 @@ Status ArrayMesh::add_surface(MeshSurface surface, SurfaceExtras extras) {
     return {};
 }
 
-Status ArrayMesh::add_surface_from_arrays(const SurfaceArrays& arrays, PrimitiveType primitive, SurfaceExtras extras) {
+Status ArrayMesh::add_surface_from_arrays(const SurfaceArrays& arrays, PrimitiveType primitive,
+                                          SurfaceExtras extras) {
     Expected<MeshSurface> surface = encode_surface(arrays, primitive);
     if (!surface) {
         return surface.error();
@@ -172,11 +173,13 @@ bool ArrayMesh::get_dynamic(const StringName& property, Variant& value) const {
         return true;
     }
     const SurfaceField field = surface_field(name);
-    if (field.surface < 0 || field.surface >= surface_count() || (field.what != "name" && field.what != "material")) {
+    if (field.surface < 0 || field.surface >= surface_count() ||
+        (field.what != "name" && field.what != "material")) {
         return false;
     }
     const SurfaceExtras& extras = extras_[field.surface];
-    value = field.what == "name" ? Variant(extras.name) : VariantCast<Ref<Material>>::to_variant(extras.material);
+    value =
+        field.what == "name" ? Variant(extras.name) : VariantCast<Ref<Material>>::to_variant(extras.material);
     return true;
 }
 

@@ -29,14 +29,17 @@ public:
     /// @return what validate_surface() says; the mesh is then unchanged.
     Status add_surface(MeshSurface surface, SurfaceExtras extras = {});
     /// Appends a surface from plain arrays with the default compression.
-    Status add_surface_from_arrays(const SurfaceArrays& arrays, PrimitiveType primitive, SurfaceExtras extras = {});
+    Status add_surface_from_arrays(const SurfaceArrays& arrays, PrimitiveType primitive,
+                                   SurfaceExtras extras = {});
     void clear_surfaces();
     void set_surface_material(int surface, Ref<Material> material);
     [[nodiscard]] const SurfaceExtras& surface_extras(int surface) const { return extras_[surface]; }
 
     [[nodiscard]] std::span<const MeshSurface> surfaces() const override { return surfaces_; }
     [[nodiscard]] Ref<Material> surface_material(int surface) const override;
-    [[nodiscard]] std::span<const std::string> blend_shape_names() const override { return blend_shape_names_; }
+    [[nodiscard]] std::span<const std::string> blend_shape_names() const override {
+        return blend_shape_names_;
+    }
 
     [[nodiscard]] const std::string& refusal() const noexcept override { return refusal_; }
 

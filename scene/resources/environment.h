@@ -9,11 +9,11 @@
 #include "core/math/color.h"
 #include "core/object/resource.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <utility>
-
-#include <glm/mat3x3.hpp>
 
 namespace cl::scene {
 

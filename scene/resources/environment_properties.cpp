@@ -5,9 +5,9 @@
 
 #include "core/object/class_registry.h"
 
-#include <string>
-
 #include <glm/trigonometric.hpp>
+
+#include <string>
 
 namespace cl::scene {
 
@@ -32,7 +32,8 @@ void bind_background(ClassBuilder<Environment>& c, Drawn& d, Effects& e) {
     d.choice("background_mode", &D::background_mode,
              "Clear Color,Custom Color,Sky,Color+Sky,Canvas,Keep,Camera Feed")
         .doc("What is seen where nothing is drawn.");
-    c.property("background_sky", &Environment::sky, &Environment::set_sky).doc("Sky for background and ambient light.");
+    c.property("background_sky", &Environment::sky, &Environment::set_sky)
+        .doc("Sky for background and ambient light.");
     d.field("background_sky_custom_fov", &D::sky_custom_fov_deg)
         .range("0,180,0.1")
         .doc("Field of view of the sky [degrees]; 0: the camera's.");
@@ -43,11 +44,15 @@ void bind_background(ClassBuilder<Environment>& c, Drawn& d, Effects& e) {
     c.property(
          "background_sky_rotation_degrees",
          [](const Environment& env) { return glm::degrees(sky_rotation_rad(env)); },
-         [](Environment& env, const glm::vec3& euler_deg) { set_sky_rotation_rad(env, glm::radians(euler_deg)); })
+         [](Environment& env, const glm::vec3& euler_deg) {
+             set_sky_rotation_rad(env, glm::radians(euler_deg));
+         })
         .not_stored()
         .doc("The same as Euler angles, YXZ [degrees].");
     d.field("background_color", &D::background_color).doc("Background of the colour modes, sRGB-encoded.");
-    d.field("background_energy", &D::background_energy).range("0,16,0.01").doc("Factor on sky and reflected background.");
+    d.field("background_energy", &D::background_energy)
+        .range("0,16,0.01")
+        .doc("Factor on sky and reflected background.");
     e.field("background_canvas_max_layer", &E::canvas_max_layer).doc("Stored only.");
     e.field("background_camera_feed_id", &E::camera_feed_id).doc("Stored only.");
 
@@ -78,7 +83,9 @@ void bind_fog(Drawn& d) {
 void bind_tonemap_and_exposure(Drawn& d, Effects& e) {
     d.choice("tonemap_mode", &D::tone_mapper, "Linear,Reinhard,Filmic,Aces").doc("Tone mapping curve.");
     d.field("tonemap_exposure", &D::exposure).range("0,16,0.01").doc("Factor before the curve.");
-    d.field("tonemap_white", &D::white).range("0,16,0.01").doc("Radiance that becomes white; not used by Linear.");
+    d.field("tonemap_white", &D::white)
+        .range("0,16,0.01")
+        .doc("Radiance that becomes white; not used by Linear.");
     e.field("auto_exposure_enabled", &E::auto_exposure).doc("Stored only.");
     e.field("auto_exposure_scale", &E::auto_exposure_scale).doc("Stored only.");
     e.field("auto_exposure_min_luma", &E::auto_exposure_min_luma).doc("Stored only.");
@@ -155,8 +162,11 @@ void Environment::bind(ClassBuilder<Environment>& c) {
     d.field("adjustment_enabled", &D::adjustment_enabled).doc("Adjusts the finished picture.");
     d.field("adjustment_brightness", &D::brightness).range("0.01,8,0.01").doc("Factor on encoded colour.");
     d.field("adjustment_contrast", &D::contrast).range("0.01,8,0.01").doc("Distance from grey.");
-    d.field("adjustment_saturation", &D::saturation).range("0.01,8,0.01").doc("Distance from the mean of the channels.");
-    c.property("adjustment_color_correction", &Environment::color_correction, &Environment::set_color_correction)
+    d.field("adjustment_saturation", &D::saturation)
+        .range("0.01,8,0.01")
+        .doc("Distance from the mean of the channels.");
+    c.property("adjustment_color_correction", &Environment::color_correction,
+               &Environment::set_color_correction)
         .doc("Stored only.");
 }
 

@@ -28,23 +28,30 @@ void GIProbeData::bind(ClassBuilder<GIProbeData>& c) {
         .doc("Edge of a leaf cell [m].");
     c.property(
          "to_cell_xform", [](const GIProbeData& d) { return d.data_.cells_from_local; },
-         [](GIProbeData& d, const Transform& cells_from_local) { d.data_.cells_from_local = cells_from_local; })
+         [](GIProbeData& d, const Transform& cells_from_local) {
+             d.data_.cells_from_local = cells_from_local;
+         })
         .doc("Probe-local metres to cells.");
     c.property(
          "dynamic_data", [](const GIProbeData& d) { return PoolIntArray(d.data_.dynamic_data); },
          &GIProbeData::set_dynamic_data)
         .doc("Header and octree cells; empty: not baked.");
     const auto field = [&c](std::string_view name, auto member, auto set) {
-        return c.property(name, [member](const GIProbeData& d) { return d.data_.*member; }, set);
+        return c.property(
+            name, [member](const GIProbeData& d) { return d.data_.*member; }, set);
     };
     using D = gi::ProbeData;
-    field("dynamic_range", &D::dynamic_range, &GIProbeData::set_dynamic_range).doc("Radiance that a texel of 1 stands for.");
+    field("dynamic_range", &D::dynamic_range, &GIProbeData::set_dynamic_range)
+        .doc("Radiance that a texel of 1 stands for.");
     field("energy", &D::energy, &GIProbeData::set_energy).doc("Factor on the probe's light.");
     field("bias", &D::bias_cells, &GIProbeData::set_bias).doc("Distance at which cones start [cells].");
-    field("normal_bias", &D::normal_bias_m, &GIProbeData::set_normal_bias).doc("Offset of cones along the normal [m].");
-    field("propagation", &D::propagation, &GIProbeData::set_propagation).doc("How much light survives upwards in the tree.");
+    field("normal_bias", &D::normal_bias_m, &GIProbeData::set_normal_bias)
+        .doc("Offset of cones along the normal [m].");
+    field("propagation", &D::propagation, &GIProbeData::set_propagation)
+        .doc("How much light survives upwards in the tree.");
     field("interior", &D::interior, &GIProbeData::set_interior).doc("No sky light where cones find nothing.");
-    field("compress", &D::compress, &GIProbeData::set_compress).doc("Asks for a compressed texture; stored only.");
+    field("compress", &D::compress, &GIProbeData::set_compress)
+        .doc("Asks for a compressed texture; stored only.");
 }
 
 void GIProbeData::set_data(gi::ProbeData data) {

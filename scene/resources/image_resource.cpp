@@ -2,10 +2,10 @@
 
 #include "core/object/class_registry.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -57,8 +57,9 @@ int64_t int_entry(const Dictionary& d, std::string_view key) {
 Expected<std::shared_ptr<const Image>> image_from(const Dictionary& d) {
     const int64_t width = int_entry(d, "width"), height = int_entry(d, "height");
     if (width < 1 || height < 1 || width > kMaxImageEdge || height > kMaxImageEdge) {
-        return Error{ErrorCode::ParseError, fmt::format("expected \"width\" and \"height\" from 1 to {}, found {} and {}",
-                                                        kMaxImageEdge, width, height)};
+        return Error{ErrorCode::ParseError,
+                     fmt::format("expected \"width\" and \"height\" from 1 to {}, found {} and {}",
+                                 kMaxImageEdge, width, height)};
     }
     const Variant* format_value = d.find("format"sv);
     const std::string* name = format_value ? format_value->get_if<std::string>() : nullptr;
@@ -76,9 +77,9 @@ Expected<std::shared_ptr<const Image>> image_from(const Dictionary& d) {
     }
     const auto base_bytes = static_cast<size_t>(width * height * bytes_per_pixel(*format));
     if (data->size() < base_bytes) { // mipmaps, if any, follow the base level
-        return Error{ErrorCode::ParseError, fmt::format("expected at least {} * {} * {} = {} bytes of data, found {}",
-                                                        width, height, bytes_per_pixel(*format), base_bytes,
-                                                        data->size())};
+        return Error{ErrorCode::ParseError,
+                     fmt::format("expected at least {} * {} * {} = {} bytes of data, found {}", width, height,
+                                 bytes_per_pixel(*format), base_bytes, data->size())};
     }
     auto image = std::make_shared<Image>();
     image->size = {static_cast<int>(width), static_cast<int>(height)};

@@ -26,7 +26,8 @@ public:
     static void bind(ClassBuilder<Material>& c);
 
     [[nodiscard]] int render_priority() const noexcept { return render_priority_; }
-    SetResult set_render_priority(int priority); ///< -128..127, later draws over earlier among transparent ones
+    SetResult
+    set_render_priority(int priority); ///< -128..127, later draws over earlier among transparent ones
     [[nodiscard]] const Ref<Material>& next_pass() const noexcept { return next_pass_; }
     /// Stored; further passes are not drawn. Refused if it would make a cycle.
     SetResult set_next_pass(Ref<Material> material);

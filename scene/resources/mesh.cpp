@@ -64,8 +64,8 @@ void Mesh::surfaces_changed() {
 void Mesh::surface_material_changed(int surface) {
     if (VisualServer* server = rid_.server()) {
         const Ref<Material> material = surface_material(surface);
-        static_cast<void>(
-            server->mesh_surface_set_material(rid_.get(), surface, material ? material->rid(*server) : RID{}));
+        static_cast<void>(server->mesh_surface_set_material(rid_.get(), surface,
+                                                            material ? material->rid(*server) : RID{}));
     }
     emit_changed();
 }

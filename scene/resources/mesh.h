@@ -8,11 +8,11 @@
 #include "core/math/aabb.h"
 #include "core/object/resource.h"
 
+#include <glm/vec2.hpp>
+
 #include <span>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
 
 namespace cl::scene {
 
@@ -38,8 +38,8 @@ public:
     [[nodiscard]] glm::vec2 lightmap_size_hint() const noexcept { return lightmap_size_hint_; }
     void set_lightmap_size_hint(glm::vec2 texels);
 
-    /// The mesh in `server` with its surface materials, made on the first call; null RID if it has no surfaces.
-    /// Geometry that changes makes a new RID: users ask again when on_changed() calls them.
+    /// The mesh in `server` with its surface materials, made on the first call; null RID if it has no
+    /// surfaces. Geometry that changes makes a new RID: users ask again when on_changed() calls them.
     [[nodiscard]] RID rid(VisualServer& server) const;
 
 protected:

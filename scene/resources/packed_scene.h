@@ -11,7 +11,7 @@
 
 namespace cl::scene {
 
-class Node;      // scene/main/node.h
+class Node;       // scene/main/node.h
 struct SceneFile; // scene/io/scene_file.h
 
 /// A scene that can be made into nodes any number of times.
@@ -34,8 +34,8 @@ public:
     [[nodiscard]] const std::shared_ptr<const SceneFile>& file() const noexcept { return file_; }
     [[nodiscard]] const Resources& resources() const noexcept { return resources_; }
 
-    /// Makes the nodes (spec tscn section 6): children in file order, properties in file order, owner = the root,
-    /// connections last. Nodes of instanced scenes come with it.
+    /// Makes the nodes (spec tscn section 6): children in file order, properties in file order, owner = the
+    /// root, connections last. Nodes of instanced scenes come with it.
     /// @param diagnostics  receives a located warning for all that was left out or not understood.
     /// @return the root, outside any tree; ParseError if there is no root or the scene instances itself.
     [[nodiscard]] Expected<std::unique_ptr<Node>> instance(Diagnostics& diagnostics) const;

@@ -3,9 +3,9 @@
 #include "core/io/log.h"
 #include "core/object/class_registry.h"
 
-#include <utility>
-
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace cl::scene {
 
@@ -24,7 +24,8 @@ void flip(SurfaceArrays& arrays) {
 
 void PrimitiveMesh::bind(ClassBuilder<PrimitiveMesh>& c) {
     c.doc("A mesh of one surface made from a formula.");
-    c.property("material", &PrimitiveMesh::material, &PrimitiveMesh::set_material).doc("Material of the surface.");
+    c.property("material", &PrimitiveMesh::material, &PrimitiveMesh::set_material)
+        .doc("Material of the surface.");
     c.property("custom_aabb", &PrimitiveMesh::custom_aabb, &PrimitiveMesh::set_custom_aabb)
         .doc("Box for culling [m] in place of the mesh's own; zero size: none.");
     c.property("flip_faces", &PrimitiveMesh::flip_faces, &PrimitiveMesh::set_flip_faces)

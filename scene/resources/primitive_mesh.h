@@ -3,12 +3,12 @@
 #include "scene/resources/explains_refusal.h"
 #include "scene/resources/mesh.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace cl::scene {
 

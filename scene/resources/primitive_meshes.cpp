@@ -15,7 +15,7 @@ public:
     explicit ShapeProperties(ClassBuilder<T>& builder) : builder_(builder) {}
 
     template <typename V>
-    PropertyBuilder<T> field(std::string_view name, V Shape::* member) {
+    PropertyBuilder<T> field(std::string_view name, V Shape::*member) {
         return builder_.property(
             name, [member](const T& mesh) -> V { return mesh.shape().*member; },
             [member](T& mesh, V value) {
@@ -36,7 +36,9 @@ void CubeMesh::bind(ClassBuilder<CubeMesh>& c) {
     ShapeProperties<CubeMesh, CubeShape> p(c);
     p.field("size", &CubeShape::size).doc("Edges [m].");
     p.field("subdivide_width", &CubeShape::subdivide_width).range("0,100,1").doc("Extra edge loops along x.");
-    p.field("subdivide_height", &CubeShape::subdivide_height).range("0,100,1").doc("Extra edge loops along y.");
+    p.field("subdivide_height", &CubeShape::subdivide_height)
+        .range("0,100,1")
+        .doc("Extra edge loops along y.");
     p.field("subdivide_depth", &CubeShape::subdivide_depth).range("0,100,1").doc("Extra edge loops along z.");
 }
 
@@ -54,8 +56,12 @@ void PlaneMesh::bind(ClassBuilder<PlaneMesh>& c) {
     c.doc("A rectangle in the xz plane that faces +y.");
     ShapeProperties<PlaneMesh, PlaneShape> p(c);
     p.field("size", &PlaneShape::size).doc("Edges along x and z [m].");
-    p.field("subdivide_width", &PlaneShape::subdivide_width).range("0,100,1").doc("Extra edge loops along x.");
-    p.field("subdivide_depth", &PlaneShape::subdivide_depth).range("0,100,1").doc("Extra edge loops along z.");
+    p.field("subdivide_width", &PlaneShape::subdivide_width)
+        .range("0,100,1")
+        .doc("Extra edge loops along x.");
+    p.field("subdivide_depth", &PlaneShape::subdivide_depth)
+        .range("0,100,1")
+        .doc("Extra edge loops along z.");
 }
 
 void QuadMesh::bind(ClassBuilder<QuadMesh>& c) {
@@ -67,11 +73,19 @@ void QuadMesh::bind(ClassBuilder<QuadMesh>& c) {
 void PrismMesh::bind(ClassBuilder<PrismMesh>& c) {
     c.doc("A triangle in the xy plane, extruded along z.");
     ShapeProperties<PrismMesh, PrismShape> p(c);
-    p.field("left_to_right", &PrismShape::left_to_right).range("-2,2,0.1").doc("Place of the upper edge along x.");
+    p.field("left_to_right", &PrismShape::left_to_right)
+        .range("-2,2,0.1")
+        .doc("Place of the upper edge along x.");
     p.field("size", &PrismShape::size).doc("Box around the prism [m].");
-    p.field("subdivide_width", &PrismShape::subdivide_width).range("0,100,1").doc("Extra edge loops along x.");
-    p.field("subdivide_height", &PrismShape::subdivide_height).range("0,100,1").doc("Extra edge loops along y.");
-    p.field("subdivide_depth", &PrismShape::subdivide_depth).range("0,100,1").doc("Extra edge loops along z.");
+    p.field("subdivide_width", &PrismShape::subdivide_width)
+        .range("0,100,1")
+        .doc("Extra edge loops along x.");
+    p.field("subdivide_height", &PrismShape::subdivide_height)
+        .range("0,100,1")
+        .doc("Extra edge loops along y.");
+    p.field("subdivide_depth", &PrismShape::subdivide_depth)
+        .range("0,100,1")
+        .doc("Extra edge loops along z.");
 }
 
 void CylinderMesh::bind(ClassBuilder<CylinderMesh>& c) {

@@ -7,7 +7,8 @@
 
 namespace cl::scene {
 
-/// A primitive mesh whose parameters are a Shape struct. Each class below binds the struct's fields as properties.
+/// A primitive mesh whose parameters are a Shape struct. Each class below binds the struct's fields as
+/// properties.
 template <typename Shape>
 class ShapeMesh : public PrimitiveMesh {
 public:

@@ -2,10 +2,10 @@
 
 #include "scene/resources/primitive_builder.h"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <numbers>
-
-#include <glm/geometric.hpp>
 
 namespace cl::scene {
 
@@ -24,7 +24,8 @@ float fraction(int index, double times, int count) {
     return static_cast<float>(index / (times * count));
 }
 
-/// Point `i` of `segments` around a circle: x = sin, y = cos of the angle, rounded to float as they are stored.
+/// Point `i` of `segments` around a circle: x = sin, y = cos of the angle, rounded to float as they are
+/// stored.
 glm::vec2 on_circle(int i, int segments) {
     const float u = static_cast<float>(i) / static_cast<float>(segments);
     const double angle = u * (kPi * 2.0);
@@ -179,8 +180,8 @@ void add_cylinder_bottom(ShapeBuilder& b, const CylinderShape& shape) {
     const uint32_t center = b.vertex({0, y, 0}, kMinusY, kAlongX, {0.75f, 0.75f});
     for (int i = 0; i <= shape.radial_segments; ++i) {
         const glm::vec2 c = on_circle(i, shape.radial_segments);
-        const uint32_t last = b.vertex({c.x * shape.bottom_radius, y, c.y * shape.bottom_radius}, kMinusY, kAlongX,
-                                       {0.5f + (c.x + 1.0f) * 0.25f, 1.0f - (c.y + 1.0f) * 0.25f});
+        const uint32_t last = b.vertex({c.x * shape.bottom_radius, y, c.y * shape.bottom_radius}, kMinusY,
+                                       kAlongX, {0.5f + (c.x + 1.0f) * 0.25f, 1.0f - (c.y + 1.0f) * 0.25f});
         if (i > 0) {
             b.triangle(center, last - 1, last);
         }

@@ -5,8 +5,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-// Shapes as pure functions of their parameters (spec scene-classes section 17): same positions, order and indices
-// as Godot's, by the same float32 additions. Sizes in metres; triangles clockwise seen from outside.
+// Shapes as pure functions of their parameters (spec scene-classes section 17): same positions, order and
+// indices as Godot's, by the same float32 additions. Sizes in metres; triangles clockwise seen from outside.
 namespace cl::scene {
 
 struct CubeShape {

@@ -4,12 +4,12 @@
 #include "core/object/class_registry.h"
 #include "core/threads.h"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace cl::scene {
 
@@ -24,13 +24,14 @@ float ease(float x, float c) {
         return c < 1.0f ? 1.0f - std::pow(1.0f - x, 1.0f / c) : std::pow(x, c);
     }
     if (c < 0.0f) { // in and out
-        return x < 0.5f ? std::pow(x * 2.0f, -c) * 0.5f : (1.0f - std::pow(1.0f - (x - 0.5f) * 2.0f, -c)) * 0.5f + 0.5f;
+        return x < 0.5f ? std::pow(x * 2.0f, -c) * 0.5f
+                        : (1.0f - std::pow(1.0f - (x - 0.5f) * 2.0f, -c)) * 0.5f + 0.5f;
     }
     return 0.0f;
 }
 
-/// The value as the shared-exponent format RGB9E5 keeps it (GL_EXT_texture_shared_exponent), since Godot stores
-/// its sky so: 9 bits of mantissa each, one exponent, at most 65408.
+/// The value as the shared-exponent format RGB9E5 keeps it (GL_EXT_texture_shared_exponent), since Godot
+/// stores its sky so: 9 bits of mantissa each, one exponent, at most 65408.
 glm::vec3 rounded_to_rgb9e5(glm::vec3 c) {
     constexpr float kLargest = 65408.0f;
     c = glm::clamp(c, glm::vec3(0.0f), glm::vec3(kLargest));
@@ -54,7 +55,8 @@ struct SkyGradient {
           ground_bottom(linear_from_srgb(p.ground_bottom_color.rgb())),
           ground_horizon(linear_from_srgb(p.ground_horizon_color.rgb())),
           sun(p.sun_color.rgb() * p.sun_energy), // not linearised: spec scene-classes section 14.4
-          to_sun(basis_from_euler_yxz({glm::radians(p.sun_latitude_deg), glm::radians(p.sun_longitude_deg), 0.0f}) *
+          to_sun(basis_from_euler_yxz(
+                     {glm::radians(p.sun_latitude_deg), glm::radians(p.sun_longitude_deg), 0.0f}) *
                  glm::vec3(0, 0, -1)) {}
 
     [[nodiscard]] glm::vec3 ground(float angle_from_zenith) const {
@@ -69,7 +71,8 @@ struct SkyGradient {
             return sun;
         }
         if (from_sun_deg < p.sun_angle_max_deg) {
-            const float t = (from_sun_deg - p.sun_angle_min_deg) / (p.sun_angle_max_deg - p.sun_angle_min_deg);
+            const float t =
+                (from_sun_deg - p.sun_angle_min_deg) / (p.sun_angle_max_deg - p.sun_angle_min_deg);
             return glm::mix(sun, color, ease(t, p.sun_curve));
         }
         return color;
@@ -94,9 +97,11 @@ SkyDesc make_procedural_panorama(const ProceduralSkyParams& params) {
             float* out = desc.radiance.data() + j * static_cast<size_t>(desc.size.x) * 3;
             for (int i = 0; i < desc.size.x; ++i, out += 3) {
                 const float phi = static_cast<float>(i) / static_cast<float>(desc.size.x - 1) * kPi * 2.0f;
-                const glm::vec3 n{-std::sin(phi) * std::sin(theta), std::cos(theta), -std::cos(phi) * std::sin(theta)};
+                const glm::vec3 n{-std::sin(phi) * std::sin(theta), std::cos(theta),
+                                  -std::cos(phi) * std::sin(theta)};
                 const float angle = std::acos(std::clamp(n.y, -1.0f, 1.0f));
-                const glm::vec3 color = rounded_to_rgb9e5(n.y < 0.0f ? gradient.ground(angle) : gradient.sky(n, angle));
+                const glm::vec3 color =
+                    rounded_to_rgb9e5(n.y < 0.0f ? gradient.ground(angle) : gradient.sky(n, angle));
                 out[0] = color.r;
                 out[1] = color.g;
                 out[2] = color.b;
@@ -120,13 +125,18 @@ void ProceduralSky::bind(ClassBuilder<ProceduralSky>& c) {
     p.field("ground_curve", &P::ground_curve).range("0,1,0.001").doc("Easing from horizon to nadir.");
     p.field("ground_energy", &P::ground_energy).range("0,64,0.01").doc("Factor on the ground.");
     p.field("sun_color", &P::sun_color).doc("Colour of the sun, used as linear.");
-    p.field("sun_latitude", &P::sun_latitude_deg).range("-180,180,0.01").doc("Height above the horizon [degrees].");
-    p.field("sun_longitude", &P::sun_longitude_deg).range("-180,180,0.01").doc("From -z towards +x [degrees].");
+    p.field("sun_latitude", &P::sun_latitude_deg)
+        .range("-180,180,0.01")
+        .doc("Height above the horizon [degrees].");
+    p.field("sun_longitude", &P::sun_longitude_deg)
+        .range("-180,180,0.01")
+        .doc("From -z towards +x [degrees].");
     p.field("sun_angle_min", &P::sun_angle_min_deg).range("0,360,0.01").doc("Radius of the disk [degrees].");
     p.field("sun_angle_max", &P::sun_angle_max_deg).range("0,360,0.01").doc("Radius of the halo [degrees].");
     p.field("sun_curve", &P::sun_curve).range("0,1,0.001").doc("Easing of the halo.");
     p.field("sun_energy", &P::sun_energy).range("0,64,0.01").doc("Factor on the sun.");
-    p.choice("texture_size", &P::texture_size, "256,512,1024,2048,4096").doc("Width of the panorama [texels].");
+    p.choice("texture_size", &P::texture_size, "256,512,1024,2048,4096")
+        .doc("Width of the panorama [texels].");
 }
 
 void ProceduralSky::set_params(const ProceduralSkyParams& params) {

@@ -23,8 +23,8 @@ public:
 
     /// The sky as a panorama of linear radiance; size 0 if there is nothing to show.
     [[nodiscard]] virtual SkyDesc describe() const = 0;
-    /// The sky in `server`, made on the first call; null RID if there is nothing to show. A change makes a new
-    /// RID: users ask again when on_changed() calls them.
+    /// The sky in `server`, made on the first call; null RID if there is nothing to show. A change makes a
+    /// new RID: users ask again when on_changed() calls them.
     [[nodiscard]] RID rid(VisualServer& server) const;
 
 protected:
@@ -70,8 +70,8 @@ struct ProceduralSkyParams {
     int texture_size = 2; ///< exponent: 256 * 2^n texels wide, half as high; n in 0..4
 };
 
-/// The panorama of a procedural sky: linear radiance, row 0 at the zenith, rounded to RGB9E5 as Godot stores it.
-/// Gradient colours are linearised, the sun's is not (spec section 14.4). Runs on all worker threads.
+/// The panorama of a procedural sky: linear radiance, row 0 at the zenith, rounded to RGB9E5 as Godot stores
+/// it. Gradient colours are linearised, the sun's is not (spec section 14.4). Runs on all worker threads.
 [[nodiscard]] SkyDesc make_procedural_panorama(const ProceduralSkyParams& params);
 
 /// Gradients above and below the horizon and a sun with a halo.

@@ -89,7 +89,8 @@ BakeMaterial SpatialMaterial::bake_material() const {
     m.input.emission_color = params_.emission.rgb();
     m.input.emission_energy = params_.emission_energy;
     m.input.emission_multiply = params_.emission_operator == EmissionOperator::Multiply;
-    // A texture without pixels: albedo black, as spec gi-bake section 3 has it; emission as if there were none.
+    // A texture without pixels: albedo black, as spec gi-bake section 3 has it; emission as if there were
+    // none.
     static const auto no_pixels = std::make_shared<const Image>(
         Image{.size = glm::ivec2(1), .format = PixelFormat::RGBA8, .data = {0, 0, 0, 255}});
     if (const Ref<Texture>& albedo = texture(TextureSlot::Albedo)) {

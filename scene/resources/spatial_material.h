@@ -6,11 +6,11 @@
 
 #include "servers/render_types.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include <glm/vec3.hpp>
 
 namespace cl::scene {
 
@@ -100,8 +100,22 @@ struct SpatialParams {
 };
 
 enum class TextureSlot : uint8_t {
-    Albedo, Metallic, Roughness, Emission, Normal, Rim, Clearcoat, AnisotropyFlow, AmbientOcclusion, Depth,
-    SubsurfaceScattering, Transmission, Refraction, DetailMask, DetailAlbedo, DetailNormal,
+    Albedo,
+    Metallic,
+    Roughness,
+    Emission,
+    Normal,
+    Rim,
+    Clearcoat,
+    AnisotropyFlow,
+    AmbientOcclusion,
+    Depth,
+    SubsurfaceScattering,
+    Transmission,
+    Refraction,
+    DetailMask,
+    DetailAlbedo,
+    DetailNormal,
     Count,
 };
 

@@ -20,7 +20,7 @@ public:
     StructProperties(ClassBuilder<T>& builder, Get get, Set set) : builder_(builder), get_(get), set_(set) {}
 
     template <typename V>
-    PropertyBuilder<T> field(std::string_view name, V Struct::* member) {
+    PropertyBuilder<T> field(std::string_view name, V Struct::*member) {
         return builder_.property(name, getter(member), [get = get_, set = set_, member](T& object, V value) {
             Struct changed = (object.*get)();
             changed.*member = std::move(value);
@@ -31,7 +31,7 @@ public:
     /// An enum or an int that counts from 0; numbers beyond the names are refused.
     /// @param names  as for PropertyHint::Enum: "Off,On"
     template <typename V>
-    PropertyBuilder<T> choice(std::string_view name, V Struct::* member, std::string names) {
+    PropertyBuilder<T> choice(std::string_view name, V Struct::*member, std::string names) {
         const int64_t count = std::count(names.begin(), names.end(), ',') + 1;
         const auto assign = [get = get_, set = set_, member, count](T& object, V value) {
             const auto number = static_cast<int64_t>(value);
@@ -48,7 +48,7 @@ public:
 
 private:
     template <typename V>
-    auto getter(V Struct::* member) const {
+    auto getter(V Struct::*member) const {
         return [get = get_, member](const T& object) -> V { return (object.*get)().*member; };
     }
 

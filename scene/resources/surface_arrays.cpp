@@ -1,9 +1,9 @@
 #include "scene/resources/surface_arrays.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace cl::scene {
 
@@ -18,8 +18,9 @@ Error wrong_type(size_t entry, std::string_view expected, const Variant& found) 
 }
 
 Error not_a_multiple(size_t entry, size_t found) {
-    return {ErrorCode::ParseError,
-            fmt::format("expected 4 numbers a vertex in the {} array, found {} numbers", kNames[entry], found)};
+    return {
+        ErrorCode::ParseError,
+        fmt::format("expected 4 numbers a vertex in the {} array, found {} numbers", kNames[entry], found)};
 }
 
 Status read_positions(const Variant& value, std::vector<glm::vec3>& out) {
@@ -105,7 +106,8 @@ Status read_indices(const Variant& value, std::vector<uint32_t>& out) {
     if (const Status read = read_exact(value, 8, "PoolIntArray", signed_indices); !read) {
         return read;
     }
-    out.assign(signed_indices.begin(), signed_indices.end()); // negative ones become huge and are refused as such
+    out.assign(signed_indices.begin(),
+               signed_indices.end()); // negative ones become huge and are refused as such
     return {};
 }
 
@@ -113,7 +115,8 @@ Status read_indices(const Variant& value, std::vector<uint32_t>& out) {
 
 Expected<SurfaceArrays> surface_arrays_from_variants(const Array& entries) {
     if (entries.size() != kNames.size()) {
-        return Error{ErrorCode::ParseError, fmt::format("expected 9 entries in \"arrays\", found {}", entries.size())};
+        return Error{ErrorCode::ParseError,
+                     fmt::format("expected 9 entries in \"arrays\", found {}", entries.size())};
     }
     SurfaceArrays arrays;
     const Status reads[] = {

@@ -154,8 +154,9 @@ Expected<StoredSurface> from_arrays(const Dictionary& d, const Array& arrays) {
     StoredSurface result{std::move(*surface), read_extras(d)};
     for (const Variant& morph : *morphs->get_if<Array>()) {
         const Array* entries = morph.get_if<Array>();
-        Expected<SurfaceArrays> shape = entries ? surface_arrays_from_variants(*entries)
-                                                : Expected<SurfaceArrays>(wrong_entry("morph_arrays", "Arrays", &morph));
+        Expected<SurfaceArrays> shape =
+            entries ? surface_arrays_from_variants(*entries)
+                    : Expected<SurfaceArrays>(wrong_entry("morph_arrays", "Arrays", &morph));
         if (!shape) {
             return shape.error();
         }

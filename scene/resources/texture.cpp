@@ -40,7 +40,8 @@ RID Texture::rid(VisualServer& server) const {
 void ImageTexture::bind(ClassBuilder<ImageTexture>& c) {
     c.doc("A texture whose pixels stand in the scene file.");
     c.property("flags", &ImageTexture::flags, &ImageTexture::set_flags)
-        .hint(PropertyHint::Flags, "Mipmaps,Repeat,Filter,Anisotropic,Convert to Linear,Mirrored Repeat,Video")
+        .hint(PropertyHint::Flags,
+              "Mipmaps,Repeat,Filter,Anisotropic,Convert to Linear,Mirrored Repeat,Video")
         .doc("How the texture is sampled.");
     c.property("storage", &ImageTexture::storage, &ImageTexture::set_storage)
         .enumeration("Raw,Lossy,Lossless")
@@ -66,7 +67,8 @@ glm::vec2 ImageTexture::display_size() const {
 void StreamTexture::bind(ClassBuilder<StreamTexture>& c) {
     c.doc("A texture imported from an image file.");
     c.property("flags", &StreamTexture::flags, &StreamTexture::set_flags)
-        .hint(PropertyHint::Flags, "Mipmaps,Repeat,Filter,Anisotropic,Convert to Linear,Mirrored Repeat,Video")
+        .hint(PropertyHint::Flags,
+              "Mipmaps,Repeat,Filter,Anisotropic,Convert to Linear,Mirrored Repeat,Video")
         .doc("How the texture is sampled.");
     c.property("load_path", &StreamTexture::load_path, &StreamTexture::set_load_path)
         .doc("Path of the imported .stex file.");

@@ -33,8 +33,8 @@ public:
     void set_flags(uint32_t flags);
     [[nodiscard]] glm::ivec2 size() const noexcept { return image_ ? image_->size : glm::ivec2(0); }
 
-    /// The texture in `server`, made on the first call; null RID if there is no image. A new image or new flags
-    /// make a new RID: users ask again when on_changed() calls them.
+    /// The texture in `server`, made on the first call; null RID if there is no image. A new image or new
+    /// flags make a new RID: users ask again when on_changed() calls them.
     [[nodiscard]] RID rid(VisualServer& server) const;
 
 protected:

@@ -8,12 +8,14 @@
 
 namespace cl::scene {
 
-/// A Ref<T> that tells its holder when the resource changes. Address-stable: the holder is not copied or moved.
+/// A Ref<T> that tells its holder when the resource changes. Address-stable: the holder is not copied or
+/// moved.
 template <typename T>
 class WatchedRef {
 public:
     WatchedRef() = default;
-    /// @param on_changed  called on each change of the resource held at that time, not when set() replaces it.
+    /// @param on_changed  called on each change of the resource held at that time, not when set() replaces
+    /// it.
     explicit WatchedRef(std::function<void()> on_changed) : on_changed_(std::move(on_changed)) {}
     ~WatchedRef() { set(nullptr); }
     WatchedRef(const WatchedRef&) = delete;

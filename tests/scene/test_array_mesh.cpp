@@ -99,8 +99,10 @@ TEST_SUITE("scene/resources/array_mesh") {
     }
 
     TEST_CASE("surfaces come in order") {
-        CHECK(refusal_of(value_of(kWorkedExample), "surfaces/1") == "expected surfaces/0 next, found surfaces/1");
-        CHECK(refusal_of(value_of(kWorkedExample), "surfaces/-1") == "expected surfaces/0 next, found surfaces/-1");
+        CHECK(refusal_of(value_of(kWorkedExample), "surfaces/1") ==
+              "expected surfaces/0 next, found surfaces/1");
+        CHECK(refusal_of(value_of(kWorkedExample), "surfaces/-1") ==
+              "expected surfaces/0 next, found surfaces/-1");
         register_types();
         ArrayMesh mesh;
         REQUIRE(mesh.set("surfaces/0", value_of(kWorkedExample)) == SetResult::Done);
@@ -111,7 +113,8 @@ TEST_SUITE("scene/resources/array_mesh") {
 
     TEST_CASE("missing and wrong entries are named") {
         CHECK(refusal_of(example_with("format", "")) == "expected an int in \"format\", found none");
-        CHECK(refusal_of(example_with("aabb", "Vector3( 1, 1, 1 )")) == "expected an AABB in \"aabb\", found Vector3");
+        CHECK(refusal_of(example_with("aabb", "Vector3( 1, 1, 1 )")) ==
+              "expected an AABB in \"aabb\", found Vector3");
         CHECK(refusal_of(example_with("array_data", "[ 1, 2 ]")) ==
               "expected a PoolByteArray in \"array_data\", found Array");
         CHECK(refusal_of(example_with("primitive", "7")) == "expected \"primitive\" from 0 to 6, found 7");
@@ -127,7 +130,8 @@ TEST_SUITE("scene/resources/array_mesh") {
             CHECK(refusal.find("expected") != std::string::npos);
         }
         CHECK(refusal_of(example_with("array_data", "PoolByteArray( 1, 2, 3 )")) != "accepted");
-        CHECK(refusal_of(example_with("array_index_data", "PoolByteArray( 0, 0, 1, 0, 3, 0 )")) != "accepted");
+        CHECK(refusal_of(example_with("array_index_data", "PoolByteArray( 0, 0, 1, 0, 3, 0 )")) !=
+              "accepted");
     }
 
     TEST_CASE("plain arrays need nine entries of their types, and morph_arrays") {
@@ -137,8 +141,10 @@ TEST_SUITE("scene/resources/array_mesh") {
             return refusal_of(value_of(text));
         };
         CHECK(with(", \"morph_arrays\": [  ]", "") == "expected an Array in \"morph_arrays\", found none");
-        CHECK(with(", null, null, PoolIntArray( 0, 1, 2 )", "") == "expected 9 entries in \"arrays\", found 6");
-        CHECK(with("PoolIntArray( 0, 1, 2 )", "[ 0, 1, 2 ]") == "expected a PoolIntArray as index array, found Array");
+        CHECK(with(", null, null, PoolIntArray( 0, 1, 2 )", "") ==
+              "expected 9 entries in \"arrays\", found 6");
+        CHECK(with("PoolIntArray( 0, 1, 2 )", "[ 0, 1, 2 ]") ==
+              "expected a PoolIntArray as index array, found Array");
         CHECK(with("PoolIntArray( 0, 1, 2 )", "PoolIntArray( 0, 1, -1 )") != "accepted");
         CHECK(with("PoolVector2Array( 0, 0, 1, 0, 0, 1 )", "PoolVector2Array( 0, 0 )") != "accepted");
     }
@@ -146,7 +152,8 @@ TEST_SUITE("scene/resources/array_mesh") {
     TEST_CASE("the old layout of compressed positions, three halves, is widened") {
         register_types();
         // Format 1 + 512: positions as halves. (1, 2, -1) in 6 bytes.
-        const Variant old = value_of(R"({ "aabb": AABB( 0, 0, 0, 1, 2, 1 ), "format": 513, "primitive": 0, "vertex_count": 2,
+        const Variant old =
+            value_of(R"({ "aabb": AABB( 0, 0, 0, 1, 2, 1 ), "format": 513, "primitive": 0, "vertex_count": 2,
 "array_data": PoolByteArray( 0, 60, 0, 64, 0, 188, 0, 0, 0, 0, 0, 0 ) })");
         ArrayMesh mesh;
         REQUIRE(mesh.set("surfaces/0", old) == SetResult::Done);

@@ -5,6 +5,7 @@
 #include "scene/resources/gi_probe_data.h"
 
 #include "drivers/dummy/dummy_rasterizer.h"
+
 #include "servers/visual_server.h"
 
 using namespace cl;

@@ -53,7 +53,8 @@ transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0 )
         for (int n = 0; n < 3000; ++n) {
             bytes += ", 1";
         }
-        p.write("a.tres", "[gd_resource type=\"Curve\"]\n[resource]\na = PoolByteArray( " + bytes + " )\nb = 1\nb = 2\n");
+        p.write("a.tres", "[gd_resource type=\"Curve\"]\n[resource]\na = PoolByteArray( " + bytes +
+                              " )\nb = 1\nb = 2\n");
         const Expected<Inspection> i = inspect_file(p.file("a.tres"));
         REQUIRE(i.has_value());
         CHECK(i->kind == Inspection::Kind::Resource);
@@ -63,8 +64,10 @@ transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0 )
 
     TEST_CASE("unknown classes and properties are warnings with their line") {
         TestProject p;
-        p.write("a.tscn", "[gd_scene]\n[sub_resource type=\"Animation\" id=1]\nlength = 2.0\n[node name=\"A\" type=\"MeshInstance\"]\n"
-                          "meshh = 1\nmaterial/0 = null\n[node name=\"B\" type=\"GridMap\" parent=\".\"]\ncell = 2\n");
+        p.write("a.tscn",
+                "[gd_scene]\n[sub_resource type=\"Animation\" id=1]\nlength = 2.0\n[node name=\"A\" "
+                "type=\"MeshInstance\"]\n"
+                "meshh = 1\nmaterial/0 = null\n[node name=\"B\" type=\"GridMap\" parent=\".\"]\ncell = 2\n");
         const Expected<Inspection> i = inspect_file(p.file("a.tscn"));
         REQUIRE(i.has_value());
         REQUIRE(i->warnings.size() == 3);
@@ -77,9 +80,10 @@ transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0 )
 
     TEST_CASE("probe data shows its grid") {
         TestProject p;
-        p.write("a.tres", "[gd_resource type=\"GIProbeData\"]\n[resource]\nbounds = AABB( -1, -1, -1, 2, 2, 2 )\n"
-                          "dynamic_data = PoolIntArray( 0, 7, 64, 32, 64, 1, 0, 5, 5, 5, 5, 5, 5, 5, 5, 5, "
-                          "-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 8355711, 0 )\n");
+        p.write("a.tres",
+                "[gd_resource type=\"GIProbeData\"]\n[resource]\nbounds = AABB( -1, -1, -1, 2, 2, 2 )\n"
+                "dynamic_data = PoolIntArray( 0, 7, 64, 32, 64, 1, 0, 5, 5, 5, 5, 5, 5, 5, 5, 5, "
+                "-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 8355711, 0 )\n");
         const Expected<Inspection> i = inspect_file(p.file("a.tres"));
         REQUIRE_MESSAGE(i.has_value(), (i ? "" : i.error().to_string()));
         REQUIRE(i->probe.has_value());

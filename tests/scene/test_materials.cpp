@@ -3,6 +3,7 @@
 #include "scene/resources/spatial_material.h"
 
 #include "drivers/dummy/dummy_rasterizer.h"
+
 #include "servers/visual_server.h"
 
 #include <doctest/doctest.h>
@@ -24,15 +25,18 @@ std::vector<std::string> stored_names(const Object& object) {
 Ref<ImageTexture> texture_of(Color texel) {
     const auto byte = [](float v) { return static_cast<uint8_t>(v * 255.0f); };
     auto texture = make_ref<ImageTexture>();
-    texture->set_image(std::make_shared<const Image>(
-        Image{.size = {1, 1}, .format = PixelFormat::RGBA8, .data = {byte(texel.r), byte(texel.g), byte(texel.b), 255}}));
+    texture->set_image(
+        std::make_shared<const Image>(Image{.size = {1, 1},
+                                            .format = PixelFormat::RGBA8,
+                                            .data = {byte(texel.r), byte(texel.g), byte(texel.b), 255}}));
     return texture;
 }
 
 } // namespace
 
 TEST_SUITE("scene/resources/materials") {
-    TEST_CASE("the properties of a feature are saved while it is on, even at their defaults, and never otherwise") {
+    TEST_CASE(
+        "the properties of a feature are saved while it is on, even at their defaults, and never otherwise") {
         register_types();
         SpatialMaterial material;
         SpatialParams params;
@@ -41,15 +45,16 @@ TEST_SUITE("scene/resources/materials") {
         CHECK(stored_names(material).empty());
         params.emission_enabled = true;
         material.set_params(params);
-        CHECK(stored_names(material) == std::vector<std::string>{"emission_enabled", "emission", "emission_energy",
-                                                                 "emission_operator", "emission_on_uv2"});
+        CHECK(stored_names(material) == std::vector<std::string>{"emission_enabled", "emission",
+                                                                 "emission_energy", "emission_operator",
+                                                                 "emission_on_uv2"});
         params = {};
         params.use_alpha_scissor = true;
         params.ao_enabled = true;
         material.set_params(params);
         CHECK(stored_names(material) ==
-              std::vector<std::string>{"params_use_alpha_scissor", "params_alpha_scissor_threshold", "ao_enabled",
-                                       "ao_light_affect", "ao_on_uv2", "ao_texture_channel"});
+              std::vector<std::string>{"params_use_alpha_scissor", "params_alpha_scissor_threshold",
+                                       "ao_enabled", "ao_light_affect", "ao_on_uv2", "ao_texture_channel"});
     }
 
     TEST_CASE("any property is accepted from a file, whatever is switched on") {

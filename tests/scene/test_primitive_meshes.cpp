@@ -3,6 +3,7 @@
 #include "scene/resources/primitive_meshes.h"
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -10,8 +11,6 @@
 #include <functional>
 #include <map>
 #include <tuple>
-
-#include <glm/geometric.hpp>
 
 using namespace cl;
 using namespace cl::scene;
@@ -27,11 +26,18 @@ struct Shape {
 std::vector<Shape> solids() {
     return {
         {"cube", make_shape(CubeShape{})},
-        {"subdivided cube", make_shape(CubeShape{.size = {1, 2, 3}, .subdivide_width = 2, .subdivide_height = 1, .subdivide_depth = 4})},
+        {"subdivided cube",
+         make_shape(CubeShape{
+             .size = {1, 2, 3}, .subdivide_width = 2, .subdivide_height = 1, .subdivide_depth = 4})},
         {"sphere", make_shape(SphereShape{.radial_segments = 16, .rings = 7})},
-        {"hemisphere", make_shape(SphereShape{.height = 1.0f, .radial_segments = 16, .rings = 7, .is_hemisphere = true})},
+        {"hemisphere",
+         make_shape(SphereShape{.height = 1.0f, .radial_segments = 16, .rings = 7, .is_hemisphere = true})},
         {"prism", make_shape(PrismShape{})},
-        {"leaning prism", make_shape(PrismShape{.left_to_right = 0.2f, .size = {1, 2, 3}, .subdivide_width = 1, .subdivide_height = 3, .subdivide_depth = 1})},
+        {"leaning prism", make_shape(PrismShape{.left_to_right = 0.2f,
+                                                .size = {1, 2, 3},
+                                                .subdivide_width = 1,
+                                                .subdivide_height = 3,
+                                                .subdivide_depth = 1})},
         {"cylinder", make_shape(CylinderShape{.radial_segments = 12})},
         {"cone", make_shape(CylinderShape{.top_radius = 0.0f, .radial_segments = 12, .rings = 1})},
         {"capsule", make_shape(CapsuleShape{.radius = 0.5f, .radial_segments = 12, .rings = 3})},
@@ -106,9 +112,11 @@ TEST_SUITE("scene/resources/primitive_meshes") {
         CHECK(volume(make_shape(CubeShape{.size = {1, 2, 3}})) == doctest::Approx(6.0));
         CHECK(volume(make_shape(PrismShape{.size = {1, 2, 3}})) == doctest::Approx(3.0));
         CHECK(volume(make_shape(SphereShape{})) == doctest::Approx(4.0 / 3.0 * pi).epsilon(0.01));
-        CHECK(volume(make_shape(SphereShape{.height = 1.0f, .is_hemisphere = true})) == doctest::Approx(2.0 / 3.0 * pi).epsilon(0.01));
+        CHECK(volume(make_shape(SphereShape{.height = 1.0f, .is_hemisphere = true})) ==
+              doctest::Approx(2.0 / 3.0 * pi).epsilon(0.01));
         CHECK(volume(make_shape(CylinderShape{})) == doctest::Approx(2.0 * pi).epsilon(0.01));
-        CHECK(volume(make_shape(CylinderShape{.top_radius = 0.0f})) == doctest::Approx(2.0 / 3.0 * pi).epsilon(0.01));
+        CHECK(volume(make_shape(CylinderShape{.top_radius = 0.0f})) ==
+              doctest::Approx(2.0 / 3.0 * pi).epsilon(0.01));
         CHECK(volume(make_shape(CapsuleShape{})) == doctest::Approx(4.0 / 3.0 * pi + pi).epsilon(0.01));
     }
 
@@ -190,7 +198,8 @@ TEST_SUITE("scene/resources/primitive_meshes") {
     }
 
     TEST_CASE("the vertices counted in advance are at least those that are made") {
-        CHECK(vertex_count(CubeShape{.subdivide_depth = 3}) == make_shape(CubeShape{.subdivide_depth = 3}).positions.size());
+        CHECK(vertex_count(CubeShape{.subdivide_depth = 3}) ==
+              make_shape(CubeShape{.subdivide_depth = 3}).positions.size());
         CHECK(vertex_count(PrismShape{}) == make_shape(PrismShape{}).positions.size());
         CHECK(vertex_count(SphereShape{}) == make_shape(SphereShape{}).positions.size());
         CHECK(vertex_count(PlaneShape{}) == make_shape(PlaneShape{}).positions.size());
@@ -240,7 +249,7 @@ TEST_SUITE("scene/resources/primitive_meshes") {
     }
 
     TEST_CASE("primitive surfaces have the format word that Godot gives them") {
-        CHECK(CubeMesh().surfaces()[0].format == 97559);  // vertex, normal, tangent, UV, index
+        CHECK(CubeMesh().surfaces()[0].format == 97559); // vertex, normal, tangent, UV, index
         CHECK(QuadMesh().surfaces()[0].format == 97303); // without index
     }
 }

@@ -48,11 +48,14 @@ TEST_SUITE("scene/io/project") {
     TEST_CASE("paths out of the project and other schemes are refused") {
         const cl::tests::TestProject project;
         const ProjectPaths paths = ProjectPaths::containing(project.file("a.tscn"));
-        CHECK(file_of(paths, "res://../b.png") == "expected a path inside the project, found \"res://../b.png\"");
+        CHECK(file_of(paths, "res://../b.png") ==
+              "expected a path inside the project, found \"res://../b.png\"");
         CHECK(file_of(paths, "res://a/../../b.png") ==
               "expected a path inside the project, found \"res://a/../../b.png\"");
-        CHECK(file_of(paths, "user://b.png") == "expected a path that starts with res://, found \"user://b.png\"");
-        CHECK(file_of(paths, "http://b.png") == "expected a path that starts with res://, found \"http://b.png\"");
+        CHECK(file_of(paths, "user://b.png") ==
+              "expected a path that starts with res://, found \"user://b.png\"");
+        CHECK(file_of(paths, "http://b.png") ==
+              "expected a path that starts with res://, found \"http://b.png\"");
     }
 
     TEST_CASE("a file of the project is named by res://, another by its absolute path") {
@@ -64,10 +67,11 @@ TEST_SUITE("scene/io/project") {
 
     TEST_CASE("a config file is sections of keys; keys before the first section stand alone") {
         Diagnostics diagnostics;
-        const Expected<ConfigFile> config = ConfigFile::parse("; comment\nconfig_version=4\n\n[rendering]\n\n"
-                                                              "quality/shadows/filter_mode=2\nenvironment/on=true\n"
-                                                              "name=\"a\nb\"\nquality/shadows/filter_mode=1\n",
-                                                              "project.godot", diagnostics);
+        const Expected<ConfigFile> config =
+            ConfigFile::parse("; comment\nconfig_version=4\n\n[rendering]\n\n"
+                              "quality/shadows/filter_mode=2\nenvironment/on=true\n"
+                              "name=\"a\nb\"\nquality/shadows/filter_mode=1\n",
+                              "project.godot", diagnostics);
         REQUIRE(config.has_value());
         CHECK(config->int_or("config_version", 0) == 4);
         CHECK(config->int_or("rendering/quality/shadows/filter_mode", 0) == 1);
@@ -77,12 +81,14 @@ TEST_SUITE("scene/io/project") {
         CHECK(config->text_or("rendering/environment/on", "other") == "other");
     }
 
-    TEST_CASE("project settings are read, those out of range warned about, and the rest are Godot's defaults") {
+    TEST_CASE(
+        "project settings are read, those out of range warned about, and the rest are Godot's defaults") {
         cl::tests::TestProject project;
-        project.write("project.godot", "config_version=4\n[display]\nwindow/size/width=640\nwindow/size/height=0\n"
-                                       "[rendering]\nquality/voxel_cone_tracing/high_quality=true\n"
-                                       "environment/default_clear_color=Color( 0.1, 0.2, 0.3, 1 )\n"
-                                       "environment/default_environment=\"res://env.tres\"\n");
+        project.write("project.godot",
+                      "config_version=4\n[display]\nwindow/size/width=640\nwindow/size/height=0\n"
+                      "[rendering]\nquality/voxel_cone_tracing/high_quality=true\n"
+                      "environment/default_clear_color=Color( 0.1, 0.2, 0.3, 1 )\n"
+                      "environment/default_environment=\"res://env.tres\"\n");
         Diagnostics diagnostics;
         const Expected<ProjectSettings> s =
             load_project_settings(ProjectPaths::containing(project.file("a.tscn")), diagnostics);
@@ -93,7 +99,8 @@ TEST_SUITE("scene/io/project") {
         CHECK(s->default_environment == "res://env.tres");
         CHECK(s->shadow_atlas_size == 4096);
         REQUIRE(diagnostics.warnings().size() == 1);
-        CHECK(diagnostics.warnings()[0].message == "display/window/size/height: expected 1 to 16384, found 0");
+        CHECK(diagnostics.warnings()[0].message ==
+              "display/window/size/height: expected 1 to 16384, found 0");
     }
 
     TEST_CASE("a damaged project.godot is an error with its place, none at all gives the defaults") {

@@ -16,7 +16,8 @@ namespace {
 
 /// A scene whose root is a MeshInstance, with these resources above it and these properties.
 std::string scene_of(std::string_view resources, std::string_view properties = "") {
-    return fmt::format("[gd_scene format=2]\n{}\n[node name=\"A\" type=\"MeshInstance\"]\n{}\n", resources, properties);
+    return fmt::format("[gd_scene format=2]\n{}\n[node name=\"A\" type=\"MeshInstance\"]\n{}\n", resources,
+                       properties);
 }
 
 std::string sub(std::string_view type, std::string_view properties) {
@@ -52,7 +53,8 @@ material/0 = SubResource( 3 )
 
     TEST_CASE("of two sub resources with one id the first counts, of a key given twice the last") {
         TestProject p;
-        p.write("a.tscn", scene_of("[sub_resource type=\"CubeMesh\" id=1]\nsize = Vector3( 1, 1, 1 )\nsize = Vector3( 3, 3, 3 )\n"
+        p.write("a.tscn", scene_of("[sub_resource type=\"CubeMesh\" id=1]\nsize = Vector3( 1, 1, 1 )\nsize = "
+                                   "Vector3( 3, 3, 3 )\n"
                                    "[sub_resource type=\"SphereMesh\" id=1]\n",
                                    "mesh = SubResource( 1 )"));
         const std::unique_ptr<Node> root = p.load();
@@ -64,11 +66,13 @@ material/0 = SubResource( 3 )
 
     TEST_CASE("a resource file is loaded once and shared") {
         TestProject p;
-        p.write("mats/red.tres", "[gd_resource type=\"SpatialMaterial\" format=2]\n[resource]\nmetallic = 1\n");
+        p.write("mats/red.tres",
+                "[gd_resource type=\"SpatialMaterial\" format=2]\n[resource]\nmetallic = 1\n");
         p.write("a.tscn", scene_of("[ext_resource path=\"res://mats/red.tres\" type=\"Material\" id=1]\n"
                                    "[ext_resource path=\"mats/red.tres\" type=\"Material\" id=2]\n"
                                    "[sub_resource type=\"CubeMesh\" id=1]\nmaterial = ExtResource( 1 )\n",
-                                   "mesh = SubResource( 1 )\nmaterial/0 = ExtResource( 2 )\nmaterial_override = Resource( \"res://mats/red.tres\" )"));
+                                   "mesh = SubResource( 1 )\nmaterial/0 = ExtResource( 2 "
+                                   ")\nmaterial_override = Resource( \"res://mats/red.tres\" )"));
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         const auto& node = dynamic_cast<const MeshInstance&>(*root);
@@ -85,9 +89,11 @@ material/0 = SubResource( 3 )
         CHECK(p.outcome(scene_of("[ext_resource path=\"res://none.tscn\" type=\"PackedScene\" id=1]")) ==
               "a.tscn:2:1: error: res://none.tscn: expected a file, found none");
         CHECK(p.outcome(scene_of("[ext_resource path=\"res://../a.tres\" type=\"Material\" id=1]")) ==
-              "a.tscn:2:1: error: res://../a.tres: expected a path inside the project, found \"res://../a.tres\"");
+              "a.tscn:2:1: error: res://../a.tres: expected a path inside the project, found "
+              "\"res://../a.tres\"");
         CHECK(p.outcome(scene_of("[ext_resource path=\"user://a.tres\" type=\"Material\" id=1]")) ==
-              "a.tscn:2:1: error: user://a.tres: expected a path that starts with res://, found \"user://a.tres\"");
+              "a.tscn:2:1: error: user://a.tres: expected a path that starts with res://, found "
+              "\"user://a.tres\"");
         p.write("dir.tres/x", "");
         CHECK(p.outcome(scene_of("[ext_resource path=\"res://dir.tres\" type=\"Material\" id=1]")) ==
               "a.tscn:2:1: error: res://dir.tres: expected a file, found a directory");
@@ -101,20 +107,26 @@ material/0 = SubResource( 3 )
         CHECK(p.outcome(scene_of("[ext_resource path=\"res://bad.tres\" type=\"Material\" id=1]"))
                   .substr(0, 17) == "bad.tres:3:13: er");
         p.write("bin.res", "RSRC....");
-        CHECK(p.outcome(scene_of("[ext_resource path=\"res://bin.res\" type=\"Mesh\" id=1]")) ==
-              "a.tscn:2:1: error: res://bin.res: expected a text scene or resource, found a binary one (RSRC)");
+        CHECK(
+            p.outcome(scene_of("[ext_resource path=\"res://bin.res\" type=\"Mesh\" id=1]")) ==
+            "a.tscn:2:1: error: res://bin.res: expected a text scene or resource, found a binary one (RSRC)");
         p.write("bad.png", "\x89PNG\r\n\x1a\n....");
-        CHECK(p.outcome(scene_of("[ext_resource path=\"res://bad.png\" type=\"Texture\" id=1]")).substr(0, 37) ==
-              "a.tscn:2:1: error: res://bad.png: bad");
+        CHECK(p.outcome(scene_of("[ext_resource path=\"res://bad.png\" type=\"Texture\" id=1]"))
+                  .substr(0, 37) == "a.tscn:2:1: error: res://bad.png: bad");
     }
 
     TEST_CASE("files that need each other in a circle are an error") {
         TestProject p;
-        p.write("b.tscn", "[gd_scene]\n[ext_resource path=\"res://a.tscn\" type=\"PackedScene\" id=1]\n[node name=\"B\" type=\"Node\"]\n");
-        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://b.tscn\" type=\"PackedScene\" id=1]\n[node name=\"A\" type=\"Node\"]\n") ==
-              "b.tscn:2:1: error: res://a.tscn: expected a file that does not need itself, found a circle of files");
-        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://a.tscn\" type=\"PackedScene\" id=1]\n[node name=\"A\" instance=ExtResource( 1 )]\n") ==
-              "a.tscn:2:1: error: res://a.tscn: expected a file that does not need itself, found a circle of files");
+        p.write("b.tscn", "[gd_scene]\n[ext_resource path=\"res://a.tscn\" type=\"PackedScene\" id=1]\n[node "
+                          "name=\"B\" type=\"Node\"]\n");
+        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://b.tscn\" type=\"PackedScene\" id=1]\n[node "
+                        "name=\"A\" type=\"Node\"]\n") ==
+              "b.tscn:2:1: error: res://a.tscn: expected a file that does not need itself, found a circle of "
+              "files");
+        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://a.tscn\" type=\"PackedScene\" id=1]\n[node "
+                        "name=\"A\" instance=ExtResource( 1 )]\n") ==
+              "a.tscn:2:1: error: res://a.tscn: expected a file that does not need itself, found a circle of "
+              "files");
     }
 
     TEST_CASE("scripts and classes that we do not have are warned about once, kept, and need no file") {
@@ -133,12 +145,14 @@ shape = SubResource( 1 )
 )");
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
-        CHECK(p.warnings() == std::vector<std::string>{
-                                  "a.tscn:2:1: warning: files of class Script are kept, without effect",
-                                  "a.tscn:4:1: warning: resources of class BoxShape are kept, without effect",
-                                  "a.tscn:10:1: warning: nodes of class CollisionShape are kept, without effect"});
+        CHECK(p.warnings() ==
+              std::vector<std::string>{
+                  "a.tscn:2:1: warning: files of class Script are kept, without effect",
+                  "a.tscn:4:1: warning: resources of class BoxShape are kept, without effect",
+                  "a.tscn:10:1: warning: nodes of class CollisionShape are kept, without effect"});
         CHECK(root->get("speed") == Variant(3.5));
-        const auto* shape = dynamic_cast<const MissingResource*>(root->get_node("B")->get("shape").to_object());
+        const auto* shape =
+            dynamic_cast<const MissingResource*>(root->get_node("B")->get("shape").to_object());
         REQUIRE(shape != nullptr);
         CHECK(shape->class_name().str() == "BoxShape");
         CHECK(shape->get("extents") == Variant(glm::vec3(1)));
@@ -146,13 +160,15 @@ shape = SubResource( 1 )
 
     TEST_CASE("an unknown property is warned about once for its class and kept") {
         TestProject p;
-        p.write("a.tscn", scene_of("[sub_resource type=\"CubeMesh\" id=1]\nsiez = 1\n[sub_resource type=\"CubeMesh\" id=2]\nsiez = 2\n",
+        p.write("a.tscn", scene_of("[sub_resource type=\"CubeMesh\" id=1]\nsiez = 1\n[sub_resource "
+                                   "type=\"CubeMesh\" id=2]\nsiez = 2\n",
                                    "meshes = 3\n__meta__ = {}\n_import_path = NodePath(\".\")"));
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         CHECK(p.warnings() ==
-              std::vector<std::string>{"a.tscn:3:1: warning: CubeMesh has no property \"siez\": kept, without effect",
-                                       "a.tscn:7:1: warning: MeshInstance has no property \"meshes\": kept, without effect"});
+              std::vector<std::string>{
+                  "a.tscn:3:1: warning: CubeMesh has no property \"siez\": kept, without effect",
+                  "a.tscn:7:1: warning: MeshInstance has no property \"meshes\": kept, without effect"});
         CHECK(root->get("meshes") == Variant(3));
     }
 
@@ -162,9 +178,11 @@ shape = SubResource( 1 )
               "a.tscn:3:13: error: SpatialMaterial.roughness: expected float, found String");
         CHECK(p.outcome(scene_of(sub("CubeMesh", "size = Vector2( 1, 1 )"))) ==
               "a.tscn:3:8: error: CubeMesh.size: expected Vector3, found Vector2");
-        CHECK(p.outcome(scene_of("[sub_resource type=\"CubeMesh\" id=2]\n" + sub("CubeMesh", "material = SubResource( 2 )"))) ==
+        CHECK(p.outcome(scene_of("[sub_resource type=\"CubeMesh\" id=2]\n" +
+                                 sub("CubeMesh", "material = SubResource( 2 )"))) ==
               "a.tscn:4:12: error: CubeMesh.material: expected a Material, found a CubeMesh");
-        CHECK(p.outcome(scene_of("", "mesh = 5")) == "a.tscn:4:8: error: MeshInstance.mesh: expected a Mesh, found int");
+        CHECK(p.outcome(scene_of("", "mesh = 5")) ==
+              "a.tscn:4:8: error: MeshInstance.mesh: expected a Mesh, found int");
         CHECK(p.outcome(scene_of("", "transform = \"up\"")) ==
               "a.tscn:4:13: error: MeshInstance.transform: expected Transform, found String");
         CHECK(p.outcome(scene_of("", "transform = Vector3( 1, 2 )")).substr(0, 20) == "a.tscn:4:26: error: ");
@@ -172,7 +190,8 @@ shape = SubResource( 1 )
 
     TEST_CASE("numbers and bools convert into each other as in Godot") {
         TestProject p;
-        p.write("a.tscn", scene_of(sub("CubeMesh", "subdivide_width = 1.7\nflip_faces = 1"), "mesh = SubResource( 1 )\nlayers = 3.9\nvisible = 0"));
+        p.write("a.tscn", scene_of(sub("CubeMesh", "subdivide_width = 1.7\nflip_faces = 1"),
+                                   "mesh = SubResource( 1 )\nlayers = 3.9\nvisible = 0"));
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         const Ref<CubeMesh> mesh = dynamic_cast<const MeshInstance&>(*root).mesh().cast<CubeMesh>();
@@ -184,17 +203,23 @@ shape = SubResource( 1 )
 
     TEST_CASE("null for a number is a warning, a number out of range too, and the property keeps its value") {
         TestProject p;
-        CHECK(p.outcome(scene_of(sub("SpatialMaterial", "roughness = null\nparams_cull_mode = 9\nrender_priority = 1000"))) == "loaded");
+        CHECK(p.outcome(scene_of(sub("SpatialMaterial",
+                                     "roughness = null\nparams_cull_mode = 9\nrender_priority = 1000"))) ==
+              "loaded");
         CHECK(p.warnings() ==
               std::vector<std::string>{
                   "a.tscn:3:13: warning: SpatialMaterial.roughness: expected float, found null",
-                  "a.tscn:4:20: warning: SpatialMaterial.params_cull_mode: expected a value in range, found 9, which is left out",
-                  "a.tscn:5:19: warning: SpatialMaterial.render_priority: expected a value in range, found 1000, which is left out"});
+                  "a.tscn:4:20: warning: SpatialMaterial.params_cull_mode: expected a value in range, found "
+                  "9, which is left out",
+                  "a.tscn:5:19: warning: SpatialMaterial.render_priority: expected a value in range, found "
+                  "1000, which is left out"});
     }
 
-    TEST_CASE("a resource of a class that we do not have in the place of one of ours is a warning, and is kept") {
+    TEST_CASE(
+        "a resource of a class that we do not have in the place of one of ours is a warning, and is kept") {
         TestProject p;
-        p.write("a.tscn", scene_of("[sub_resource type=\"GradientTexture\" id=2]\n" + sub("SpatialMaterial", "albedo_texture = SubResource( 2 )"),
+        p.write("a.tscn", scene_of("[sub_resource type=\"GradientTexture\" id=2]\n" +
+                                       sub("SpatialMaterial", "albedo_texture = SubResource( 2 )"),
                                    "material_override = SubResource( 1 )"));
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
@@ -202,22 +227,31 @@ shape = SubResource( 1 )
         REQUIRE(material);
         REQUIRE(material->extra_properties().size() == 1);
         CHECK(material->extra_properties()[0].name.str() == "albedo_texture");
-        CHECK(p.warnings().back() ==
-              "a.tscn:4:18: warning: SpatialMaterial.albedo_texture: expected a Texture, found a GradientTexture");
+        CHECK(p.warnings().back() == "a.tscn:4:18: warning: SpatialMaterial.albedo_texture: expected a "
+                                     "Texture, found a GradientTexture");
     }
 
     TEST_CASE("claims of a billion are one located error each") {
         TestProject p;
-        CHECK(p.outcome(scene_of(sub("ArrayMesh", "surfaces/0 = { \"aabb\": AABB( 0, 0, 0, 1, 1, 1 ), \"array_data\": PoolByteArray(  ), "
-                                                  "\"array_index_data\": PoolByteArray(  ), \"format\": 97599, \"index_count\": 1000000000, "
-                                                  "\"primitive\": 4, \"vertex_count\": 1000000000 }"))).substr(0, 53) ==
-              "a.tscn:3:14: error: ArrayMesh.surfaces/0: expected by" "te"
-              "");
-        CHECK(p.outcome(scene_of(sub("Image", "data = { \"width\": 1000000000, \"height\": 1, \"format\": \"RGBA8\", \"data\": PoolByteArray(  ) }"))) ==
-              "a.tscn:3:8: error: Image.data: expected \"width\" and \"height\" from 1 to 16384, found 1000000000 and 1");
+        CHECK(p
+                  .outcome(scene_of(sub(
+                      "ArrayMesh",
+                      "surfaces/0 = { \"aabb\": AABB( 0, 0, 0, 1, 1, 1 ), \"array_data\": PoolByteArray(  ), "
+                      "\"array_index_data\": PoolByteArray(  ), \"format\": 97599, \"index_count\": "
+                      "1000000000, "
+                      "\"primitive\": 4, \"vertex_count\": 1000000000 }")))
+                  .substr(0, 53) == "a.tscn:3:14: error: ArrayMesh.surfaces/0: expected by"
+                                    "te"
+                                    "");
+        CHECK(p.outcome(scene_of(sub("Image", "data = { \"width\": 1000000000, \"height\": 1, \"format\": "
+                                              "\"RGBA8\", \"data\": PoolByteArray(  ) }"))) ==
+              "a.tscn:3:8: error: Image.data: expected \"width\" and \"height\" from 1 to 16384, found "
+              "1000000000 and 1");
         CHECK(p.outcome(scene_of(sub("PlaneMesh", "subdivide_depth = 1000000000"))) ==
-              "a.tscn:3:19: error: PlaneMesh.subdivide_depth: expected a shape of at most 4000000 vertices, found 2000000004");
-        CHECK(p.outcome(scene_of(sub("GIProbeData", "dynamic_data = PoolIntArray( 0, 7, 64, 64, 64, 1000000000, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 )")))
+              "a.tscn:3:19: error: PlaneMesh.subdivide_depth: expected a shape of at most 4000000 vertices, "
+              "found 2000000004");
+        CHECK(p.outcome(scene_of(sub("GIProbeData", "dynamic_data = PoolIntArray( 0, 7, 64, 64, 64, "
+                                                    "1000000000, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 )")))
                   .substr(0, 46) == "a.tscn:3:16: error: GIProbeData.dynamic_data: ");
         const std::string deep(100000, '[');
         CHECK(p.outcome(scene_of("", "a = " + deep)).substr(0, 9) == "a.tscn:4:");
@@ -225,7 +259,8 @@ shape = SubResource( 1 )
 
     TEST_CASE("only resources that have objects can be sub resources") {
         TestProject p;
-        CHECK(p.outcome(scene_of(sub("Spatial", ""))) == "a.tscn:2:1: error: expected the class of a resource, found \"Spatial\"");
+        CHECK(p.outcome(scene_of(sub("Spatial", ""))) ==
+              "a.tscn:2:1: error: expected the class of a resource, found \"Spatial\"");
         CHECK(p.outcome(scene_of(sub("Mesh", ""))) ==
               "a.tscn:2:1: error: expected a class that has objects, found the abstract \"Mesh\"");
     }
@@ -242,16 +277,19 @@ shape = SubResource( 1 )
     TEST_CASE("an importer reads the files of its suffix, others of that kind are left out with a warning") {
         TestProject p;
         p.write("ball.glb", "glTF");
-        const std::string scene = "[gd_scene]\n[ext_resource path=\"res://ball.glb\" type=\"PackedScene\" id=1]\n"
-                                  "[node name=\"A\" type=\"Spatial\"]\n[node name=\"B\" parent=\".\" instance=ExtResource( 1 )]\n"
-                                  "[node name=\"C\" type=\"Spatial\" parent=\"B\"]\n[node name=\"D\" type=\"Spatial\" parent=\".\"]\n";
+        const std::string scene =
+            "[gd_scene]\n[ext_resource path=\"res://ball.glb\" type=\"PackedScene\" id=1]\n"
+            "[node name=\"A\" type=\"Spatial\"]\n[node name=\"B\" parent=\".\" instance=ExtResource( 1 )]\n"
+            "[node name=\"C\" type=\"Spatial\" parent=\"B\"]\n[node name=\"D\" type=\"Spatial\" "
+            "parent=\".\"]\n";
         p.write("a.tscn", scene);
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         CHECK(root->children().size() == 1);
-        CHECK(p.warnings() == std::vector<std::string>{
-                                  "a.tscn:2:1: warning: res://ball.glb: files of this kind are kept, without effect",
-                                  "a.tscn:4:1: warning: \"./B\" is left out: its scene res://ball.glb could not be read"});
+        CHECK(p.warnings() ==
+              std::vector<std::string>{
+                  "a.tscn:2:1: warning: res://ball.glb: files of this kind are kept, without effect",
+                  "a.tscn:4:1: warning: \"./B\" is left out: its scene res://ball.glb could not be read"});
 
         ResourceLoader loader(ProjectPaths::containing(p.file("a.tscn")), p.diagnostics());
         loader.add_importer("glb", [](const std::filesystem::path&, Diagnostics&) -> Expected<Ref<Resource>> {

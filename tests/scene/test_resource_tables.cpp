@@ -63,7 +63,8 @@ distance_fade_mode = 0 distance_fade_min_distance = 0.0 distance_fade_max_distan
     {"PlaneMesh", "PrimitiveMesh", "size = Vector2( 2, 2 ) subdivide_width = 0 subdivide_depth = 0"},
     {"QuadMesh", "PrimitiveMesh", "size = Vector2( 1, 1 )"},
     {"PrismMesh", "PrimitiveMesh",
-     "left_to_right = 0.5 size = Vector3( 2, 2, 2 ) subdivide_width = 0 subdivide_height = 0 subdivide_depth = 0"},
+     "left_to_right = 0.5 size = Vector3( 2, 2, 2 ) subdivide_width = 0 subdivide_height = 0 subdivide_depth "
+     "= 0"},
     {"CylinderMesh", "PrimitiveMesh",
      "top_radius = 1.0 bottom_radius = 1.0 height = 2.0 radial_segments = 64 rings = 4"},
     {"CapsuleMesh", "PrimitiveMesh", "radius = 1.0 mid_height = 1.0 radial_segments = 64 rings = 8"},
@@ -140,7 +141,8 @@ std::vector<const PropertyInfo*> own_stored_properties(const ClassInfo& info) {
 } // namespace
 
 TEST_SUITE("scene/resources") {
-    TEST_CASE("every resource class has the properties of its table, in save order, with defaults and a sentence") {
+    TEST_CASE(
+        "every resource class has the properties of its table, in save order, with defaults and a sentence") {
         register_types();
         for (const Table& table : kTables) {
             CAPTURE(table.class_name);
@@ -165,7 +167,8 @@ TEST_SUITE("scene/resources") {
         }
     }
 
-    TEST_CASE("a fresh resource has nothing to save, and each property takes back its own value and nothing odd") {
+    TEST_CASE(
+        "a fresh resource has nothing to save, and each property takes back its own value and nothing odd") {
         register_types();
         for (const Table& table : kTables) {
             CAPTURE(table.class_name);
@@ -188,9 +191,12 @@ TEST_SUITE("scene/resources") {
     TEST_CASE("numbers beyond an enumeration are refused and the old one is kept") {
         register_types();
         const std::pair<const char*, const char*> kChoices[] = {
-            {"SpatialMaterial", "params_diffuse_mode"}, {"SpatialMaterial", "params_cull_mode"},
-            {"SpatialMaterial", "emission_operator"},   {"Environment", "background_mode"},
-            {"Environment", "tonemap_mode"},            {"ProceduralSky", "texture_size"},
+            {"SpatialMaterial", "params_diffuse_mode"},
+            {"SpatialMaterial", "params_cull_mode"},
+            {"SpatialMaterial", "emission_operator"},
+            {"Environment", "background_mode"},
+            {"Environment", "tonemap_mode"},
+            {"ProceduralSky", "texture_size"},
             {"ProceduralSky", "radiance_size"},
         };
         for (const auto& [class_name, property] : kChoices) {

@@ -63,7 +63,8 @@ script = null
         REQUIRE(embed_probe_data(p.file("a.tscn"), "Probe", p.file("new.tres")).has_value());
         const std::string text = text_of(p.file("a.tscn"));
         CHECK(text.find("old.tres") == std::string::npos);
-        CHECK(text.find("[ext_resource path=\"res://new.tres\" type=\"GIProbeData\" id=2]") != std::string::npos);
+        CHECK(text.find("[ext_resource path=\"res://new.tres\" type=\"GIProbeData\" id=2]") !=
+              std::string::npos);
         CHECK(text.find("data = ExtResource( 2 )") != std::string::npos);
         CHECK(text.find("load_steps=2") != std::string::npos);
     }
@@ -76,7 +77,8 @@ script = null
         set_node_resource(*file, "House/Hall/Probe", "data", "res://p.tres", "GIProbeData");
         CHECK(file->nodes.back().name == "Probe");
         CHECK(file->nodes.back().parent == "House/Hall");
-        CHECK(scene_file_text(*file).find("[node name=\"Probe\" parent=\"House/Hall\"]\ndata = ExtResource( 1 )") !=
+        CHECK(scene_file_text(*file).find(
+                  "[node name=\"Probe\" parent=\"House/Hall\"]\ndata = ExtResource( 1 )") !=
               std::string::npos);
     }
 }

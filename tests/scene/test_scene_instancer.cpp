@@ -96,32 +96,39 @@ mesh = SubResource( 2 )
 
     TEST_CASE("a parent that is not there, above or in a circle, is an error") {
         TestProject p;
-        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" parent=\"B\"]\n"
-                        "[node name=\"B\" type=\"Node\" parent=\"A\"]\n") ==
-              "a.tscn:3:1: error: expected the path of a node above as \"parent\", found \"B\"");
-        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" parent=\"A\"]\n") ==
+        CHECK(
+            p.outcome(
+                "[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" parent=\"B\"]\n"
+                "[node name=\"B\" type=\"Node\" parent=\"A\"]\n") ==
+            "a.tscn:3:1: error: expected the path of a node above as \"parent\", found \"B\"");
+        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" "
+                        "parent=\"A\"]\n") ==
               "a.tscn:3:1: error: expected the path of a node above as \"parent\", found \"A\"");
-        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" parent=\"/root/R\"]\n") ==
+        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" "
+                        "parent=\"/root/R\"]\n") ==
               "a.tscn:3:1: error: expected the path of a node above as \"parent\", found \"/root/R\"");
-        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" parent=\"..\"]\n") ==
+        CHECK(p.outcome("[gd_scene]\n[node name=\"R\" type=\"Node\"]\n[node name=\"A\" type=\"Node\" "
+                        "parent=\"..\"]\n") ==
               "a.tscn:3:1: error: expected the path of a node above as \"parent\", found \"..\"");
     }
 
     TEST_CASE("a class that is no node gives a plain node that keeps its children") {
         TestProject p;
-        p.write("a.tscn", "[gd_scene]\n[node name=\"R\" type=\"Spatial\"]\n[node name=\"A\" type=\"CubeMesh\" parent=\".\"]\n"
+        p.write("a.tscn", "[gd_scene]\n[node name=\"R\" type=\"Spatial\"]\n[node name=\"A\" "
+                          "type=\"CubeMesh\" parent=\".\"]\n"
                           "[node name=\"B\" type=\"Spatial\" parent=\"A\"]\n");
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         CHECK(shape_of(*root) == "R(A(B))");
-        CHECK(p.warnings() ==
-              std::vector<std::string>{"a.tscn:3:1: warning: nodes of class CubeMesh are kept, without effect"});
+        CHECK(p.warnings() == std::vector<std::string>{
+                                  "a.tscn:3:1: warning: nodes of class CubeMesh are kept, without effect"});
     }
 
     TEST_CASE("an unknown class keeps its place, its transform and what is below it") {
         TestProject p;
         p.write("a.tscn", "[gd_scene]\n[node name=\"R\" type=\"KinematicBody\"]\ncollision_layer = 3\n"
-                          "transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0 )\n[node name=\"M\" type=\"MeshInstance\" parent=\".\"]\n");
+                          "transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0 )\n[node name=\"M\" "
+                          "type=\"MeshInstance\" parent=\".\"]\n");
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
         CHECK(root->class_name().str() == "KinematicBody");
@@ -131,7 +138,8 @@ mesh = SubResource( 2 )
         CHECK(p.warnings().size() == 1);
     }
 
-    TEST_CASE("instances come with their nodes, take the name and properties given, and can be changed inside") {
+    TEST_CASE(
+        "instances come with their nodes, take the name and properties given, and can be changed inside") {
         TestProject p;
         p.write("chair.tscn", kChair);
         p.write("a.tscn", std::string(kUsesChair) + R"(
@@ -179,19 +187,22 @@ visible = false
     TEST_CASE("a change to a node that the instance does not have is left out with a warning") {
         TestProject p;
         p.write("chair.tscn", kChair);
-        p.write("a.tscn", std::string(kUsesChair) + "[node name=\"C\" parent=\".\" instance=ExtResource( 4 )]\n"
-                                                    "[node name=\"Arm\" parent=\"C\"]\nlayers = 2\n"
-                                                    "[node name=\"X\" type=\"Node\" parent=\"C/Arm\"]\n");
+        p.write("a.tscn", std::string(kUsesChair) +
+                              "[node name=\"C\" parent=\".\" instance=ExtResource( 4 )]\n"
+                              "[node name=\"Arm\" parent=\"C\"]\nlayers = 2\n"
+                              "[node name=\"X\" type=\"Node\" parent=\"C/Arm\"]\n");
         const std::unique_ptr<Node> root = p.load();
         REQUIRE_MESSAGE(root != nullptr, p.error());
-        CHECK(p.warnings() == std::vector<std::string>{"a.tscn:5:1: warning: expected a node \"./C/Arm\" in the "
-                                                       "instanced scene, found none: left out"});
+        CHECK(p.warnings() ==
+              std::vector<std::string>{"a.tscn:5:1: warning: expected a node \"./C/Arm\" in the "
+                                       "instanced scene, found none: left out"});
     }
 
     TEST_CASE("an instance of something that is no scene is an error") {
         TestProject p;
         p.write("mat.tres", "[gd_resource type=\"SpatialMaterial\"]\n[resource]\n");
-        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://mat.tres\" type=\"PackedScene\" id=1]\n[node name=\"R\" type=\"Node\"]\n"
+        CHECK(p.outcome("[gd_scene]\n[ext_resource path=\"res://mat.tres\" type=\"PackedScene\" id=1]\n[node "
+                        "name=\"R\" type=\"Node\"]\n"
                         "[node name=\"A\" parent=\".\" instance=ExtResource( 1 )]\n") ==
               "a.tscn:4:1: error: expected a scene as \"instance\", found a SpatialMaterial");
     }
@@ -202,8 +213,10 @@ visible = false
         for (int level = 1; level <= 22; ++level) {
             const std::string below = "res://s" + std::to_string(level - 1) + ".tscn";
             p.write("s" + std::to_string(level) + ".tscn",
-                    "[gd_scene]\n[ext_resource path=\"" + below + "\" type=\"PackedScene\" id=1]\n[node name=\"N\" type=\"Node\"]\n"
-                    "[node name=\"A\" parent=\".\" instance=ExtResource( 1 )]\n[node name=\"B\" parent=\".\" instance=ExtResource( 1 )]\n");
+                    "[gd_scene]\n[ext_resource path=\"" + below +
+                        "\" type=\"PackedScene\" id=1]\n[node name=\"N\" type=\"Node\"]\n"
+                        "[node name=\"A\" parent=\".\" instance=ExtResource( 1 )]\n[node name=\"B\" "
+                        "parent=\".\" instance=ExtResource( 1 )]\n");
         }
         CHECK(p.load("s22.tscn") == nullptr);
         CHECK(p.error().find("expected a scene of at most 1048576 nodes, found more") != std::string::npos);
@@ -223,7 +236,8 @@ visible = false
 
     TEST_CASE("connections call the method of their target") {
         TestProject p;
-        p.write("a.tscn", "[gd_scene]\n[node name=\"R\" type=\"Spatial\"]\n[node name=\"A\" type=\"Spatial\" parent=\".\"]\n"
+        p.write("a.tscn", "[gd_scene]\n[node name=\"R\" type=\"Spatial\"]\n[node name=\"A\" type=\"Spatial\" "
+                          "parent=\".\"]\n"
                           "[connection signal=\"ready\" from=\"A\" to=\".\" method=\"hide\"]\n"
                           "[connection signal=\"ready\" from=\"None\" to=\".\" method=\"hide\"]\n");
         const std::unique_ptr<Node> root = p.load();

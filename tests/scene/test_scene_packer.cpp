@@ -65,7 +65,8 @@ shape = SubResource( 9 )
 TEST_SUITE("scene/io/scene_packer") {
     TEST_CASE("a scene that was loaded into nodes is packed back to the byte") {
         TestProject p;
-        p.write("mats/red.tres", "[gd_resource type=\"SpatialMaterial\" format=2]\n\n[resource]\nmetallic = 1.0\n");
+        p.write("mats/red.tres",
+                "[gd_resource type=\"SpatialMaterial\" format=2]\n\n[resource]\nmetallic = 1.0\n");
         p.write("a.tscn", kScene);
         CHECK(packed_text(p) == kScene);
     }
@@ -106,7 +107,8 @@ layers = 1
 
     TEST_CASE("an inherited scene stays one") {
         TestProject p;
-        p.write("chair.tscn", "[gd_scene]\n[node name=\"Chair\" type=\"Spatial\"]\n[node name=\"Leg\" type=\"Spatial\" parent=\".\"]\n");
+        p.write("chair.tscn", "[gd_scene]\n[node name=\"Chair\" type=\"Spatial\"]\n[node name=\"Leg\" "
+                              "type=\"Spatial\" parent=\".\"]\n");
         constexpr std::string_view kText = R"([gd_scene load_steps=2 format=2]
 
 [ext_resource path="res://chair.tscn" type="PackedScene" id=1]

@@ -36,7 +36,8 @@ std::string text_of(const fs::path& file) {
 
 std::string without_space(const std::string& text) {
     std::string out;
-    std::copy_if(text.begin(), text.end(), std::back_inserter(out), [](char c) { return static_cast<unsigned char>(c) > 32; });
+    std::copy_if(text.begin(), text.end(), std::back_inserter(out),
+                 [](char c) { return static_cast<unsigned char>(c) > 32; });
     return out;
 }
 
@@ -54,14 +55,16 @@ std::string difference(const std::string& a, const std::string& b) {
 } // namespace
 
 TEST_SUITE("scene/io/shared") {
-    TEST_CASE("real text scenes and resources are read, and written back with a difference in white space alone") {
+    TEST_CASE(
+        "real text scenes and resources are read, and written back with a difference in white space alone") {
         const std::optional<fs::path> shared = cl::tests::shared_dir();
         if (!shared) {
             MESSAGE("skipped: no reference material");
             return;
         }
         cl::tests::register_types();
-        const std::vector<fs::path> files = files_below(*shared / "assets/tscn-corpus", {".tscn", ".tres", ".escn"});
+        const std::vector<fs::path> files =
+            files_below(*shared / "assets/tscn-corpus", {".tscn", ".tres", ".escn"});
         CHECK(files.size() > 100);
         for (const fs::path& file : files) {
             CAPTURE(file.string());
@@ -83,7 +86,8 @@ TEST_SUITE("scene/io/shared") {
             return;
         }
         cl::tests::register_types();
-        for (const fs::path& file : files_below(*shared / "assets/tscn-corpus", {".tscn", ".tres", ".escn"})) {
+        for (const fs::path& file :
+             files_below(*shared / "assets/tscn-corpus", {".tscn", ".tres", ".escn"})) {
             CAPTURE(file.string());
             CHECK(inspect_file(file).has_value());
         }
@@ -109,7 +113,8 @@ TEST_SUITE("scene/io/shared") {
             CHECK(cl::tests::lines_of(diagnostics).empty());
 
             // Packed and loaded again, every node has the same properties.
-            const Expected<SceneFile> packed = pack_scene(**root, loader, diagnostics, {.path = (*scene)->path(), .original = (*scene)->file().get()});
+            const Expected<SceneFile> packed = pack_scene(
+                **root, loader, diagnostics, {.path = (*scene)->path(), .original = (*scene)->file().get()});
             REQUIRE(packed.has_value());
             CHECK(packed->nodes.size() == (*scene)->file()->nodes.size());
             CHECK(packed->sub_resources.size() == (*scene)->file()->sub_resources.size());

@@ -14,7 +14,8 @@ using cl::tests::register_types;
 namespace {
 
 glm::vec3 texel(const SkyDesc& sky, int x, int y) {
-    const float* p = sky.radiance.data() + (static_cast<size_t>(y) * static_cast<size_t>(sky.size.x) + static_cast<size_t>(x)) * 3;
+    const float* p = sky.radiance.data() +
+                     (static_cast<size_t>(y) * static_cast<size_t>(sky.size.x) + static_cast<size_t>(x)) * 3;
     return {p[0], p[1], p[2]};
 }
 
@@ -56,8 +57,10 @@ TEST_SUITE("scene/resources/sky") {
         CHECK(near(texel(sky, 300, 0), linear_from_srgb(p.sky_top_color.rgb())));
         CHECK(near(texel(sky, 300, 511), linear_from_srgb(p.ground_bottom_color.rgb())));
         // The curves are steep at the horizon: one row off it is still near the horizon's colour in blue.
-        CHECK(texel(sky, 300, 255).b == doctest::Approx(linear_from_srgb(p.sky_horizon_color.b)).epsilon(0.05));
-        CHECK(texel(sky, 300, 256).b == doctest::Approx(linear_from_srgb(p.ground_horizon_color.b)).epsilon(0.2));
+        CHECK(texel(sky, 300, 255).b ==
+              doctest::Approx(linear_from_srgb(p.sky_horizon_color.b)).epsilon(0.05));
+        CHECK(texel(sky, 300, 256).b ==
+              doctest::Approx(linear_from_srgb(p.ground_horizon_color.b)).epsilon(0.2));
     }
 
     TEST_CASE("the sun stands towards -z, and positive longitude moves it towards +x as displayed") {
@@ -102,7 +105,8 @@ TEST_SUITE("scene/resources/sky") {
             sky.set_panorama(texture);
             return sky.describe();
         };
-        const SkyDesc bytes = panorama_of({.size = {1, 1}, .format = PixelFormat::RGB8, .data = {255, 128, 0}});
+        const SkyDesc bytes =
+            panorama_of({.size = {1, 1}, .format = PixelFormat::RGB8, .data = {255, 128, 0}});
         CHECK(bytes.radiance[0] == doctest::Approx(1.0f));
         CHECK(bytes.radiance[1] == doctest::Approx(0.2158f).epsilon(1e-3));
         Image floats{.size = {1, 1}, .format = PixelFormat::RGBF, .data = std::vector<uint8_t>(12)};

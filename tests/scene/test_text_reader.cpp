@@ -95,9 +95,9 @@ TEST_SUITE("scene/io/text_reader") {
     }
 
     TEST_CASE("new lines mean nothing, unknown fields are left out, the last of a repeated field counts") {
-        const SceneFile file = file_of(
-            "[gd_scene][node name=\"A\" type=\"Node\" colour=3 type=\"Spatial\"]visible=false transform=1\n[node name=\"B\"\n"
-            "parent=\".\" type=\"Node\"]; the end\n");
+        const SceneFile file = file_of("[gd_scene][node name=\"A\" type=\"Node\" colour=3 "
+                                       "type=\"Spatial\"]visible=false transform=1\n[node name=\"B\"\n"
+                                       "parent=\".\" type=\"Node\"]; the end\n");
         REQUIRE(file.nodes.size() == 2);
         CHECK(file.nodes[0].type == "Spatial");
         CHECK(file.nodes[0].properties.size() == 2);
@@ -105,7 +105,8 @@ TEST_SUITE("scene/io/text_reader") {
     }
 
     TEST_CASE("a resource file has one main resource") {
-        const SceneFile file = file_of("[gd_resource type=\"SpatialMaterial\" format=2]\n\n[resource]\nroughness = 0.5\n");
+        const SceneFile file =
+            file_of("[gd_resource type=\"SpatialMaterial\" format=2]\n\n[resource]\nroughness = 0.5\n");
         CHECK(file.kind == SceneFile::Kind::Resource);
         CHECK(file.resource_type == "SpatialMaterial");
         REQUIRE(file.resource.size() == 1);
@@ -113,13 +114,15 @@ TEST_SUITE("scene/io/text_reader") {
     }
 
     TEST_CASE("a file that is no scene says what was expected and what is there") {
-        CHECK(error_of("") == "a.tscn:1:1: error: expected [gd_scene] or [gd_resource], found the end of the file");
+        CHECK(error_of("") ==
+              "a.tscn:1:1: error: expected [gd_scene] or [gd_resource], found the end of the file");
         CHECK(error_of("; nothing\n") ==
               "a.tscn:2:1: error: expected [gd_scene] or [gd_resource], found the end of the file");
         CHECK(error_of("[node name=\"A\" type=\"Node\"]") ==
               "a.tscn:1:1: error: expected [gd_scene] or [gd_resource], found [node]");
         CHECK(error_of("a = 1") == "a.tscn:1:1: error: expected [gd_scene] or [gd_resource], found \"a\"");
-        CHECK(error_of("[gd_scene format=2]\n") == "a.tscn:2:1: error: expected [node], found the end of the file");
+        CHECK(error_of("[gd_scene format=2]\n") ==
+              "a.tscn:2:1: error: expected [node], found the end of the file");
         CHECK(error_of("[gd_resource type=\"CubeMesh\"]\n") ==
               "a.tscn:2:1: error: expected [resource], found the end of the file");
     }
@@ -138,8 +141,9 @@ TEST_SUITE("scene/io/text_reader") {
               "a.tscn:2:1: error: expected [ext_resource], [sub_resource] or [node], found [resource]");
         CHECK(error_of("[gd_resource type=\"CubeMesh\"]\n[node name=\"A\" type=\"Node\"]") ==
               "a.tscn:2:1: error: expected [ext_resource], [sub_resource] or [resource], found [node]");
-        CHECK(error_of("[gd_scene]\n[node name=\"A\" type=\"Node\"]\n[sub_resource type=\"CubeMesh\" id=1]") ==
-              "a.tscn:3:1: error: expected [node], [connection] or [editable], found [sub_resource]");
+        CHECK(
+            error_of("[gd_scene]\n[node name=\"A\" type=\"Node\"]\n[sub_resource type=\"CubeMesh\" id=1]") ==
+            "a.tscn:3:1: error: expected [node], [connection] or [editable], found [sub_resource]");
         CHECK(error_of("[gd_resource type=\"CubeMesh\"]\n[resource]\n[resource]") ==
               "a.tscn:3:1: error: expected the end of the file after [resource], found [resource]");
         CHECK(error_of("[gd_scene]\n[sub_resource type=\"CubeMesh\" id=1]\nsize = Vector3( 1, 1, 1 )") ==
@@ -167,7 +171,8 @@ TEST_SUITE("scene/io/text_reader") {
               "a.tscn:2:12: error: expected a String as \"name\" of [node], found int");
         CHECK(error_of("[gd_scene]\n[node name=\"A\" type=\"Node\" groups=7]") ==
               "a.tscn:2:35: error: expected an Array of Strings as \"groups\" of [node], found int");
-        CHECK(error_of("[gd_scene]\n[node name=\"A\" type=\"Node\"]\n[connection signal=\"s\" from=\".\" to=\".\"]") ==
+        CHECK(error_of("[gd_scene]\n[node name=\"A\" type=\"Node\"]\n[connection signal=\"s\" from=\".\" "
+                       "to=\".\"]") ==
               "a.tscn:3:1: error: expected a field \"method\" in [connection], found none");
     }
 
@@ -187,7 +192,8 @@ TEST_SUITE("scene/io/text_reader") {
               "a.tscn:3:8: error: expected the id of a [sub_resource] above, found 3");
         CHECK(error_of("[gd_scene]\n[node name=\"A\" type=\"MeshInstance\"]\nmesh = ExtResource( 3 )") ==
               "a.tscn:3:8: error: expected the id of a [ext_resource] above, found 3");
-        CHECK(error_of("[gd_scene]\n[sub_resource type=\"SpatialMaterial\" id=1]\nnext_pass = SubResource( 1 )") ==
+        CHECK(error_of(
+                  "[gd_scene]\n[sub_resource type=\"SpatialMaterial\" id=1]\nnext_pass = SubResource( 1 )") ==
               "a.tscn:3:13: error: expected the id of a [sub_resource] above, found 1");
     }
 
@@ -195,7 +201,8 @@ TEST_SUITE("scene/io/text_reader") {
         register_types();
         for (size_t length = 0; length < kScene.size(); ++length) {
             Diagnostics diagnostics;
-            const Expected<SceneFile> file = parse_scene_text(kScene.substr(0, length), "a.tscn", diagnostics);
+            const Expected<SceneFile> file =
+                parse_scene_text(kScene.substr(0, length), "a.tscn", diagnostics);
             if (!file) {
                 CAPTURE(length);
                 CHECK(file.error().where.line > 0);

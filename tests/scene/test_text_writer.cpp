@@ -64,18 +64,21 @@ TEST_SUITE("scene/io/text_writer") {
     }
 
     TEST_CASE("a resource file is written back to the byte") {
-        constexpr std::string_view kText = "[gd_resource type=\"Environment\" load_steps=2 format=2]\n\n"
-                                           "[sub_resource type=\"ProceduralSky\" id=1]\nsun_latitude = 70.0\n\n"
-                                           "[resource]\nbackground_mode = 2\nbackground_sky = SubResource( 1 )\n";
+        constexpr std::string_view kText =
+            "[gd_resource type=\"Environment\" load_steps=2 format=2]\n\n"
+            "[sub_resource type=\"ProceduralSky\" id=1]\nsun_latitude = 70.0\n\n"
+            "[resource]\nbackground_mode = 2\nbackground_sky = SubResource( 1 )\n";
         CHECK(rewritten(kText) == kText);
     }
 
     TEST_CASE("tags keep the order and spelling of their fields") {
-        CHECK(rewritten("[gd_scene format=2 load_steps=9]\n[node type=\"Node\" name=\"A\" groups=[\"g\"] mine=4]\n") ==
+        CHECK(rewritten("[gd_scene format=2 load_steps=9]\n[node type=\"Node\" name=\"A\" groups=[\"g\"] "
+                        "mine=4]\n") ==
               "[gd_scene format=2 load_steps=9]\n\n[node type=\"Node\" name=\"A\" groups=[\"g\"] mine=4]\n");
     }
 
-    TEST_CASE("a file made by code has load steps, quoted indices and the order of fields that Godot writes") {
+    TEST_CASE(
+        "a file made by code has load steps, quoted indices and the order of fields that Godot writes") {
         SceneFile file;
         file.ext_resources.push_back({1, "Texture", "res://a.png", {}, {}});
         file.sub_resources.push_back({2, "CubeMesh", {}, {}, {}});

@@ -47,9 +47,11 @@ TEST_SUITE("scene/resources/texture") {
     }
 
     TEST_CASE("sizes of a billion and bytes that are not there are refused") {
-        CHECK(refusal_of(R"({ "data": PoolByteArray( 1 ), "format": "L8", "height": 1, "width": 1000000000 })") ==
+        CHECK(refusal_of(
+                  R"({ "data": PoolByteArray( 1 ), "format": "L8", "height": 1, "width": 1000000000 })") ==
               "expected \"width\" and \"height\" from 1 to 16384, found 1000000000 and 1");
-        CHECK(refusal_of(R"({ "data": PoolByteArray( 1 ), "format": "RGB8", "height": 16384, "width": 16384 })") ==
+        CHECK(refusal_of(
+                  R"({ "data": PoolByteArray( 1 ), "format": "RGB8", "height": 16384, "width": 16384 })") ==
               "expected at least 16384 * 16384 * 3 = 805306368 bytes of data, found 1");
         CHECK(refusal_of(R"({ "data": PoolByteArray( 1 ), "height": 1, "width": 1 })") ==
               "expected a format name as \"format\", found none");
@@ -60,8 +62,8 @@ TEST_SUITE("scene/resources/texture") {
     TEST_CASE("a format that we do not read is kept for saving and gives no image") {
         register_types();
         ImageResource image;
-        const Expected<Variant> value =
-            parse_variant(R"({ "data": PoolByteArray( 1 ), "format": "DXT5", "height": 4, "mipmaps": false, "width": 4 })");
+        const Expected<Variant> value = parse_variant(
+            R"({ "data": PoolByteArray( 1 ), "format": "DXT5", "height": 4, "mipmaps": false, "width": 4 })");
         CHECK(image.set("data", *value) == SetResult::Done);
         CHECK(image.image() == nullptr);
         CHECK(image.problem() == "image format \"DXT5\" is not supported");
@@ -78,7 +80,8 @@ TEST_SUITE("scene/resources/texture") {
         CHECK(texture.display_size() == glm::vec2(1.0f));
     }
 
-    TEST_CASE("the flags of an imported image come from its settings, else they are mipmaps, repeat and filter") {
+    TEST_CASE(
+        "the flags of an imported image come from its settings, else they are mipmaps, repeat and filter") {
         const cl::tests::TestProject project;
         Diagnostics diagnostics;
         REQUIRE(save_image(red_pixel(), project.file("a.png")).ok());
@@ -86,8 +89,9 @@ TEST_SUITE("scene/resources/texture") {
         REQUIRE(plain.has_value());
         CHECK((*plain)->flags() == 7);
 
-        project.write("a.png.import", "[remap]\n\nimporter=\"texture\"\npath=\"res://.import/a.stex\"\n\n[params]\n\n"
-                                      "flags/repeat=2\nflags/filter=false\nflags/mipmaps=true\n");
+        project.write("a.png.import",
+                      "[remap]\n\nimporter=\"texture\"\npath=\"res://.import/a.stex\"\n\n[params]\n\n"
+                      "flags/repeat=2\nflags/filter=false\nflags/mipmaps=true\n");
         const Expected<Ref<StreamTexture>> mirrored = import(project.file("a.png"), diagnostics);
         REQUIRE(mirrored.has_value());
         CHECK((*mirrored)->flags() == (texture_flag::kMipmaps | texture_flag::kMirroredRepeat));

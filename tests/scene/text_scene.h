@@ -41,7 +41,8 @@ public:
 
     /// The scene's root; null and error() if there is none.
     std::unique_ptr<scene::Node> load(const std::string& name = "a.tscn") {
-        loader_ = std::make_unique<scene::ResourceLoader>(scene::ProjectPaths::containing(file(name)), diagnostics_);
+        loader_ = std::make_unique<scene::ResourceLoader>(scene::ProjectPaths::containing(file(name)),
+                                                          diagnostics_);
         const Expected<Ref<scene::PackedScene>> packed = loader_->load_scene(file(name));
         if (!packed) {
             error_ = shortened(packed.error().to_string());
