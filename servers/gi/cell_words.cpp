@@ -51,7 +51,7 @@ glm::vec3 decode_emission(uint32_t word) noexcept {
 }
 
 uint32_t encode_normal(const glm::vec3& normal) noexcept {
-    const auto byte = [](float n) { return byte_of((double(n) * 0.5 + 0.5) * 255.0); };
+    const auto byte = [](float n) { return byte_of(double(n * 0.5f + 0.5f) * 255.0); };
     return packed(byte(normal.x), byte(normal.y), byte(normal.z));
 }
 

@@ -9,19 +9,11 @@ bool has_pixels(const Image& image) {
     return image.size.x > 0 && image.size.y > 0 && !image.data.empty();
 }
 
-/// The texture's kCaptureSize^2 texels, rgb in [0, 1].
-std::vector<glm::vec3> captured_texels(const Image& texture) {
+/// The texture as kCaptureSize^2 texels of RGBA8.
+Image captured_texels(const Image& texture) {
     constexpr glm::ivec2 kSize{kCaptureSize, kCaptureSize};
-    Image rgba8 = texture.converted_to(PixelFormat::RGBA8);
-    if (rgba8.size != kSize) {
-        rgba8 = resize_cubic_rgba8(rgba8, kSize);
-    }
-    std::vector<glm::vec3> texels(size_t(kCaptureSize) * kCaptureSize);
-    for (size_t i = 0; i < texels.size(); ++i) {
-        const uint8_t* byte = rgba8.data.data() + i * 4;
-        texels[i] = glm::vec3(float(byte[0]) / 255.0f, float(byte[1]) / 255.0f, float(byte[2]) / 255.0f);
-    }
-    return texels;
+    const Image rgba8 = texture.converted_to(PixelFormat::RGBA8);
+    return rgba8.size == kSize ? rgba8 : resize_cubic_rgba8(rgba8, kSize);
 }
 
 /// texel * scale + offset; one texel where there is no texture. A texture without pixels counts as black.
@@ -29,9 +21,14 @@ std::vector<glm::vec3> captured_map(const Image* texture, const glm::vec3& scale
     if (!texture || !has_pixels(*texture)) {
         return {offset};
     }
-    std::vector<glm::vec3> map = captured_texels(*texture);
-    for (glm::vec3& texel : map) {
-        texel = texel * scale + offset;
+    const Image texels = captured_texels(*texture);
+    std::vector<glm::vec3> map(size_t(kCaptureSize) * kCaptureSize);
+    for (size_t i = 0; i < map.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            // In double until the end: albedo bytes are truncated later, so the last bit decides some of them.
+            const double share = texels.data[i * 4 + size_t(c)] / 255.0;
+            map[i][c] = float(share * double(scale[c]) + double(offset[c]));
+        }
     }
     return map;
 }
