@@ -182,8 +182,9 @@ void Spatial::set_visible(bool visible) {
 }
 
 void Spatial::tell_visibility_changed() {
+    static const StringName kVisibilityChanged("visibility_changed");
     notify(Notification::VisibilityChanged);
-    emit_signal("visibility_changed");
+    emit_signal(kVisibilityChanged);
     const ChildrenLock lock(*this);
     for (const std::unique_ptr<Node>& child : children()) {
         auto* spatial = dynamic_cast<Spatial*>(child.get());

@@ -30,6 +30,17 @@ uint64_t number_after_stem(std::string_view name, std::string_view stem) {
     return number;
 }
 
+/// Interned once: a big scene emits them a million times.
+struct SignalNames {
+    StringName ready{"ready"}, renamed{"renamed"};
+    StringName tree_entered{"tree_entered"}, tree_exiting{"tree_exiting"}, tree_exited{"tree_exited"};
+};
+
+const SignalNames& signals() {
+    static const SignalNames kNames;
+    return kNames;
+}
+
 Error refused(std::string message) {
     return Error{ErrorCode::InvalidArgument, std::move(message), {}};
 }
@@ -79,7 +90,7 @@ void Node::set_name(std::string_view name) {
         return;
     }
     name_ = parent_ ? parent_->unique_child_name(StringName(clean), *this) : StringName(clean);
-    emit_signal("renamed");
+    emit_signal(signals().renamed);
 }
 
 bool Node::is_ancestor_of(const Node& other) const noexcept {
@@ -260,7 +271,7 @@ void Node::enter_tree(SceneTree& tree) {
     tree_ = &tree;
     tree.node_entered(*this);
     notify(Notification::EnterTree);
-    emit_signal("tree_entered");
+    emit_signal(signals().tree_entered);
     const ChildrenLock lock(*this);
     for (const std::unique_ptr<Node>& child : children_) {
         if (!child->tree_) { // one that the notification added has entered already
@@ -279,7 +290,7 @@ void Node::make_ready() {
     if (!ready_) {
         ready_ = true;
         notify(Notification::Ready);
-        emit_signal("ready");
+        emit_signal(signals().ready);
     }
 }
 
@@ -288,11 +299,11 @@ void Node::exit_tree() {
     for (auto child = children_.rbegin(); child != children_.rend(); ++child) {
         (*child)->exit_tree();
     }
-    emit_signal("tree_exiting");
+    emit_signal(signals().tree_exiting);
     notify(Notification::ExitTree);
     tree_->node_exited(*this);
     tree_ = nullptr;
-    emit_signal("tree_exited");
+    emit_signal(signals().tree_exited);
 }
 
 void Node::queue_free() {

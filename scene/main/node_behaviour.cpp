@@ -141,11 +141,14 @@ Expected<Variant> Node::call_method(const StringName& method, std::span<const Va
 
 namespace {
 
-/// Calls a method and says so when it fails: nobody waits for the answer.
+/// Calls a method and says so when it fails: nobody waits for the answer. A node whose file names a script in
+/// another language may well lack that script's methods.
 void call_and_report(Node& node, const StringName& method, std::span<const Variant> arguments) {
+    static const StringName kScript("script");
     const Expected<Variant> result = node.call_method(method, arguments);
     if (!result) {
-        log_warning("node '" + node.name().str() + "': " + result.error().message);
+        const LogLevel level = node.get(kScript).is_nil() ? LogLevel::Warning : LogLevel::Debug;
+        log_message(level, "node '" + node.name().str() + "': " + result.error().message);
     }
 }
 
