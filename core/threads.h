@@ -18,6 +18,8 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
 class WorkerQueue {
 public:
     WorkerQueue();
+    WorkerQueue(const WorkerQueue&) = delete;
+    WorkerQueue& operator=(const WorkerQueue&) = delete;
     ~WorkerQueue(); ///< waits for the jobs that were pushed
     void push(std::function<void()> job);
     void wait(); ///< until all pushed jobs are done

@@ -23,6 +23,8 @@ public:
         std::swap(fd_, other.fd_);
         return *this;
     }
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
     ~FileDescriptor() { static_cast<void>(close()); }
 
     [[nodiscard]] int get() const noexcept { return fd_; }

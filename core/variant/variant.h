@@ -107,7 +107,12 @@ public:
     explicit ObjectRef(const Ref<Reference>& ref);
     ObjectRef(const ObjectRef& other);
     ObjectRef(ObjectRef&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
-    ObjectRef& operator=(ObjectRef other) noexcept {
+    ObjectRef& operator=(const ObjectRef& other) {
+        ObjectRef copy(other);
+        std::swap(object_, copy.object_);
+        return *this;
+    }
+    ObjectRef& operator=(ObjectRef&& other) noexcept {
         std::swap(object_, other.object_);
         return *this;
     }

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] static Expected<std::unique_ptr<RasterizerGLES3>>
     create(std::unique_ptr<drivers::GLContext> context);
     ~RasterizerGLES3() override;
+    RasterizerGLES3(const RasterizerGLES3&) = delete;
+    RasterizerGLES3& operator=(const RasterizerGLES3&) = delete;
 
     [[nodiscard]] RasterizerInfo info() const override;
     Expected<RID> texture_create(const Image& image, const TextureParams& params,

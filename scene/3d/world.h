@@ -30,6 +30,8 @@ public:
     World();
     World(VisualServer& server, const ViewportOptions& viewport);
     ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
 
     /// nullptr for a world that nobody sees.
     [[nodiscard]] VisualServer* server() const noexcept { return server_; }

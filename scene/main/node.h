@@ -46,6 +46,8 @@ public:
 
     Node();
     ~Node() override;
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
 
     // --- name and place
     // -------------------------------------------------------------------------------------

@@ -19,6 +19,8 @@ class PackedScene final : public Resource {
 public:
     static constexpr std::string_view kClassName = "PackedScene";
     PackedScene();
+    PackedScene(const PackedScene&) = delete;
+    PackedScene& operator=(const PackedScene&) = delete;
     ~PackedScene() override;
 
     /// Resources that the file refers to.
