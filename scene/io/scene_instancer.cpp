@@ -2,6 +2,7 @@
 
 #include "scene/io/assign.h"
 #include "scene/io/link_resolver.h"
+#include "scene/io/local_resources.h"
 #include "scene/io/scene_file.h"
 #include "scene/main/missing_node.h"
 #include "scene/main/node.h"
@@ -212,15 +213,19 @@ private:
         return child->set_owner(root_.get());
     }
 
-    Expected<Variant> resolve(const ResourceLink& link) const {
+    Expected<Variant> resolve(const ResourceLink& link) {
         const PackedScene::Resources& resources = scene_.resources();
         if (link.kind() == ResourceLink::Kind::Path) {
             const auto loaded = resources.by_path.find(link.path());
             return loaded != resources.by_path.end() ? Variant(loaded->second) : Variant();
         }
-        const auto& made = link.kind() == ResourceLink::Kind::Sub ? resources.sub : resources.ext;
+        const bool is_sub = link.kind() == ResourceLink::Kind::Sub;
+        const auto& made = is_sub ? resources.sub : resources.ext;
         const auto found = made.find(link.id());
-        return found != made.end() ? Variant(found->second) : Variant();
+        if (found == made.end()) {
+            return Variant();
+        }
+        return is_sub ? local_.localized(found->second) : Variant(found->second);
     }
 
     void connect(const ConnectionEntry& entry) {
@@ -257,6 +262,7 @@ private:
     Diagnostics& diagnostics_;
     InstancingBudget& budget_;
     std::unique_ptr<Node> root_;
+    LocalResources local_;
     std::unordered_set<std::string> left_out_; // paths of entries without a node
 };
 

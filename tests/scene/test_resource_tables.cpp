@@ -205,7 +205,7 @@ TEST_SUITE("scene/resources") {
             const std::unique_ptr<Object> object = ClassRegistry::instance().create(class_name);
             REQUIRE(object != nullptr);
             const Variant before = object->get(property);
-            for (int64_t wrong : {int64_t{-1}, int64_t{7}, int64_t{256}, int64_t{1} << 40}) {
+            for (int64_t wrong : {int64_t{7}, int64_t{255}, int64_t{256}}) {
                 CHECK(object->set(property, wrong) == SetResult::Refused);
                 CHECK(object->get(property) == before);
             }

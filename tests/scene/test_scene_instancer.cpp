@@ -167,6 +167,37 @@ layers = 2
         CHECK(p.warnings().empty());
     }
 
+    TEST_CASE("a resource that is local to its scene is another one in each instance, any other is shared") {
+        TestProject p;
+        p.write("box.tscn", R"([gd_scene format=2]
+[sub_resource type="SpatialMaterial" id=1]
+resource_local_to_scene = true
+roughness = 0.5
+[sub_resource type="SpatialMaterial" id=2]
+[node name="Box" type="MeshInstance"]
+material_override = SubResource( 1 )
+[node name="Lid" type="MeshInstance" parent="."]
+material_override = SubResource( 1 )
+[node name="Base" type="MeshInstance" parent="."]
+material_override = SubResource( 2 )
+)");
+        p.write("a.tscn", R"([gd_scene format=2]
+[ext_resource path="res://box.tscn" type="PackedScene" id=1]
+[node name="R" type="Spatial"]
+[node name="A" parent="." instance=ExtResource( 1 )]
+[node name="B" parent="." instance=ExtResource( 1 )]
+)");
+        const std::unique_ptr<Node> root = p.load();
+        REQUIRE_MESSAGE(root != nullptr, p.error());
+        const auto material = [&](const char* path) {
+            return root->get_node(path)->get("material_override").to_object();
+        };
+        CHECK(material("A") == material("A/Lid"));
+        CHECK(material("A") != material("B"));
+        CHECK(material("B")->get("roughness") == Variant(0.5));
+        CHECK(material("A/Base") == material("B/Base"));
+    }
+
     TEST_CASE("an inherited scene starts as its base") {
         TestProject p;
         p.write("chair.tscn", kChair);
