@@ -59,6 +59,7 @@ Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
     out.format = PixelFormat::RGBA8;
     out.data.resize(size_t(size.x) * size_t(size.y) * 4);
     std::vector<Taps> columns;
+    columns.reserve(size_t(size.x));
     for (int x = 0; x < size.x; ++x) {
         columns.push_back(taps_at(x, image.size.x, size.x));
     }
