@@ -11,8 +11,9 @@ Frustum frustum_from_clip(const glm::mat4& clip_from_world) noexcept {
     };
     Frustum frustum;
     for (int axis = 0; axis < 3; ++axis) {
-        frustum.planes[static_cast<size_t>(2 * axis)] = row(3) + row(axis);
-        frustum.planes[static_cast<size_t>(2 * axis + 1)] = row(3) - row(axis);
+        const size_t least = 2 * static_cast<size_t>(axis);
+        frustum.planes[least] = row(3) + row(axis);
+        frustum.planes[least + 1] = row(3) - row(axis);
     }
     return frustum;
 }
