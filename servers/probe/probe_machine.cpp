@@ -115,22 +115,19 @@ ProbeSignal ProbeMachine::observe(const ProbeWanted& wanted, const LightChanges&
         }
         return wanted.data_version == unusable_version_ ? ProbeSignal::Unusable : ProbeSignal::NotSetUp;
     }
+    if (stage_ == ProbeStage::Uploading) {
+        return ProbeSignal::VolumeReady;
+    }
     if (wanted.data_version != data_version_) {
         return ProbeSignal::DataChanged;
     }
-    switch (stage_) {
-    case ProbeStage::Lighting:
-        if (cells_->busy.load(std::memory_order_acquire)) {
-            return ProbeSignal::WorkerBusy;
-        }
-        return cells_->any_mip_changed() ? ProbeSignal::VolumeNew : ProbeSignal::VolumeSame;
-    case ProbeStage::Uploading:
-        return ProbeSignal::VolumeReady;
-    case ProbeStage::Unset:
-    case ProbeStage::Check:
-        break;
+    if (stage_ == ProbeStage::Check) {
+        return due.causes.any() ? ProbeSignal::RelightDue : ProbeSignal::Unchanged;
     }
-    return due.causes.any() ? ProbeSignal::RelightDue : ProbeSignal::Unchanged;
+    if (cells_->busy.load(std::memory_order_acquire)) {
+        return ProbeSignal::WorkerBusy;
+    }
+    return cells_->any_mip_changed() ? ProbeSignal::VolumeNew : ProbeSignal::VolumeSame;
 }
 
 Status ProbeMachine::set_up(const ProbeWanted& wanted, Rasterizer& rasterizer) {

@@ -14,7 +14,7 @@ enum class ProbeStage : uint8_t {
     Unset,     ///< no volume: no data yet, or data that no volume could be made for
     Check,     ///< its volume shows what it was last lit by; each step looks for a reason to light it again
     Lighting,  ///< a worker lights the cells
-    Uploading, ///< lit bytes wait for the rasteriser
+    Uploading, ///< lit bytes are on their way to the rasteriser
 };
 
 /// What a step finds when it looks at a probe: exactly one of these, the first that holds in its stage.
@@ -47,8 +47,9 @@ struct ProbeTransition {
     ProbeAction action;
 };
 
-/// All transitions. A pair of stage and signal that is not here cannot occur.
-inline constexpr std::array<ProbeTransition, 12> kProbeTransitions{{
+/// All transitions. A pair of stage and signal that is not here cannot occur: a step passes through Uploading
+/// without looking at the data again.
+inline constexpr std::array<ProbeTransition, 11> kProbeTransitions{{
     {ProbeStage::Unset, ProbeSignal::NoData, ProbeStage::Unset, ProbeAction::None},
     {ProbeStage::Unset, ProbeSignal::Unusable, ProbeStage::Unset, ProbeAction::None},
     {ProbeStage::Unset, ProbeSignal::NotSetUp, ProbeStage::Check, ProbeAction::SetUp},
@@ -60,7 +61,6 @@ inline constexpr std::array<ProbeTransition, 12> kProbeTransitions{{
     {ProbeStage::Lighting, ProbeSignal::VolumeSame, ProbeStage::Check, ProbeAction::None},
     {ProbeStage::Lighting, ProbeSignal::DataChanged, ProbeStage::Unset, ProbeAction::StartOver},
     {ProbeStage::Uploading, ProbeSignal::VolumeReady, ProbeStage::Check, ProbeAction::Upload},
-    {ProbeStage::Uploading, ProbeSignal::DataChanged, ProbeStage::Unset, ProbeAction::StartOver},
 }};
 
 /// The transition for `on` in stage `from`; asserts that the table has it.

@@ -171,6 +171,7 @@ void InstanceStorage::enter(RID rid, Instance& instance) {
         scenario->directional_lights.push_back(rid);
     } else if (instance.kind == InstanceKind::GIProbe) {
         instance.probe = std::make_unique<ProbeMachine>(fmt::format("GI probe {}", rid.slot & 0xFFFFFFu));
+        probes_.push_back(rid);
     }
     queue(rid, instance);
 }
@@ -184,6 +185,7 @@ void InstanceStorage::leave(RID rid, Instance& instance) {
     if (instance.probe) {
         instance.probe->release(rasterizer_);
         instance.probe.reset();
+        std::erase(probes_, rid);
     }
 }
 

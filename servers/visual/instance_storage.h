@@ -39,6 +39,8 @@ public:
     void for_each(F&& f) {
         instances_.for_each(f);
     }
+    /// Those of GI probes that stand in a scenario: the ones with a machine.
+    [[nodiscard]] const std::vector<RID>& probes() const noexcept { return probes_; }
 
     // All of these take a live instance.
     void set_base(RID instance, RID base);
@@ -80,6 +82,7 @@ private:
     RID_Owner<Instance> instances_{static_cast<uint32_t>(RIDKind::Instance)};
     std::unordered_map<RID, std::vector<RID>> instances_of_base_;
     std::vector<RID> queued_;
+    std::vector<RID> probes_;
 };
 
 } // namespace cl

@@ -18,17 +18,15 @@ Status ProbeDriver::step() {
     FirstError errors;
     const bool was_at_rest = !any_in_flight();
     const double relight_before = total_relight_ms_, upload_before = total_upload_ms_;
-    instances_.for_each([this, &errors](RID, Instance& instance) {
-        if (!instance.probe) {
-            return;
-        }
+    for (RID rid : instances_.probes()) {
+        const Instance& instance = *instances_.get(rid);
         ProbeMachine& machine = *instance.probe;
         const double work_before = machine.total_work_ms(), uploads_before = machine.total_upload_ms();
         errors.note(machine.step(wanted(instance), rasterizer_, run_));
         const double uploaded = machine.total_upload_ms() - uploads_before;
         total_upload_ms_ += uploaded;
         total_relight_ms_ += machine.total_work_ms() - work_before + uploaded;
-    });
+    }
     if (was_at_rest && any_in_flight()) {
         round_start_relight_ms_ = relight_before;
         round_start_upload_ms_ = upload_before;
@@ -37,20 +35,19 @@ Status ProbeDriver::step() {
 }
 
 bool ProbeDriver::is_settled() {
-    bool settled = true;
-    instances_.for_each([this, &settled](RID, Instance& instance) {
-        settled = settled && !(instance.probe && instance.probe->is_pending(wanted(instance)));
+    const std::vector<RID>& probes = instances_.probes();
+    return std::none_of(probes.begin(), probes.end(), [this](RID rid) {
+        const Instance& instance = *instances_.get(rid);
+        return instance.probe->is_pending(wanted(instance));
     });
-    return settled;
 }
 
 bool ProbeDriver::any_in_flight() {
-    bool any = false;
-    instances_.for_each([&any](RID, Instance& instance) {
-        any = any || (instance.probe && (instance.probe->stage() == ProbeStage::Lighting ||
-                                         instance.probe->stage() == ProbeStage::Uploading));
+    const std::vector<RID>& probes = instances_.probes();
+    return std::any_of(probes.begin(), probes.end(), [this](RID rid) {
+        const ProbeStage stage = instances_.get(rid)->probe->stage();
+        return stage == ProbeStage::Lighting || stage == ProbeStage::Uploading;
     });
-    return any;
 }
 
 ProbeWanted ProbeDriver::wanted(const Instance& instance) {
@@ -96,7 +93,7 @@ void ProbeDriver::add_light(RID rid, const Transform& cells_from_world) {
                                             InstanceStorage::placement(instance), cells_from_world);
     // Finite factors may still have a product that is not.
     if (is_finite(candidate.light.cells_from_light) && std::isfinite(candidate.light.energy)) {
-        lights_.push_back(std::move(candidate));
+        lights_.push_back(candidate);
     }
 }
 

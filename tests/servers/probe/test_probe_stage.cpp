@@ -41,8 +41,8 @@ TEST_SUITE("servers/probe/probe_stage") {
         }
     }
 
-    TEST_CASE("other data starts a probe over from wherever it has a volume") {
-        for (ProbeStage stage : {ProbeStage::Check, ProbeStage::Lighting, ProbeStage::Uploading}) {
+    TEST_CASE("other data starts a probe over, at rest and while the worker is busy") {
+        for (ProbeStage stage : {ProbeStage::Check, ProbeStage::Lighting}) {
             const ProbeTransition& t = probe_transition(stage, ProbeSignal::DataChanged);
             CHECK(t.to == ProbeStage::Unset);
             CHECK(t.action == ProbeAction::StartOver);
