@@ -30,8 +30,8 @@ constexpr int kMaxLoggedErrors = 16;
 /// Whose entry points the loader's global pointers hold. EGL's and OSMesa's differ.
 std::optional<DriverKind> loaded_entry_points;
 
-/// The context that GL calls go to. Mesa's EGL and OSMesa share one dispatch table but not their notion of what is
-/// current: unless one is released, it takes making its old context current again for done already.
+/// The context that GL calls go to. Mesa's EGL and OSMesa share one dispatch table but not their notion of
+/// what is current: unless one is released, it takes making its old context current again for done already.
 GLContext* current_context = nullptr;
 
 std::string gl_string(GLenum name) {

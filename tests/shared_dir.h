@@ -20,7 +20,8 @@ inline std::filesystem::path repository_dir() {
 /// beside the checkout. std::nullopt where a user has the repository alone; such tests say that they skip.
 inline std::optional<std::filesystem::path> shared_dir() {
     const char* set = std::getenv("CONELIGHT_SHARED");
-    const std::filesystem::path dir = set ? std::filesystem::path(set) : repository_dir().parent_path() / "shared";
+    const std::filesystem::path dir =
+        set ? std::filesystem::path(set) : repository_dir().parent_path() / "shared";
     if (std::filesystem::is_directory(dir)) {
         return dir;
     }

@@ -21,6 +21,8 @@ namespace {
 constexpr uint64_t kLinesOfBlock = 256;
 constexpr uint64_t kLeastBytesOfBlock = 16;
 
+constexpr int kMaxTileEdge = 4096; // OpenEXR keeps a buffer of one tile, however small the picture is
+
 /// Names of the file's channels for r, g, b and, if the image has it, a.
 struct ChannelNames {
     std::array<const char*, 4> names{};
@@ -100,7 +102,7 @@ Expected<Image> decode_exr(std::span<const uint8_t> bytes, std::string_view name
     static std::once_flag once;
     std::call_once(once, [] {
         Imf::Header::setMaxImageSize(kMaxImageEdge, kMaxImageEdge);
-        Imf::Header::setMaxTileSize(kMaxImageEdge, kMaxImageEdge);
+        Imf::Header::setMaxTileSize(kMaxTileEdge, kMaxTileEdge);
     });
     try {
         return decode(bytes, name);

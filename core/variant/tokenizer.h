@@ -64,6 +64,9 @@ public:
     [[nodiscard]] size_t offset_of(const char* position) const noexcept {
         return static_cast<size_t>(position - text_.data());
     }
+    [[nodiscard]] std::string_view text_between(size_t start, size_t end) const noexcept {
+        return text_.substr(start, end - start);
+    }
 
     /// Line and column count from 1; columns count code points, a tab is one. Cheap for places that ascend.
     [[nodiscard]] SourceLocation location(size_t offset);

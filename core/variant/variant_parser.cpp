@@ -133,6 +133,7 @@ bool VariantReader::read_assignment(TextAssignment& assignment) {
     if (!ValueReader(tokenizer_, options_).read(assignment.value)) {
         return false;
     }
+    assignment.raw = tokenizer_.text_between(value_offset, tokenizer_.offset_of(tokenizer_.position()));
     if (is_number) {
         skip_rest_of_number(value_offset);
     }

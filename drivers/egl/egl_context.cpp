@@ -35,6 +35,8 @@ class EglContext final : public drivers::GLContext {
 public:
     EglContext(EGLDisplay display, EGLSurface surface, EGLContext context)
         : display_(display), surface_(surface), context_(context) {}
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
     ~EglContext() override {
         if (eglGetCurrentContext() == context_) {
             release_current();

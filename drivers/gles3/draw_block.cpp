@@ -1,5 +1,7 @@
 #include "drivers/gles3/draw_block.h"
 
+#include "drivers/gles3/frame_block.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -110,6 +112,7 @@ shaders::DrawBlock make_draw_block(const DrawItem& item, const Transform& world_
     set_material(block, *item.material);
     set_emission(block, *item.material);
     block.draw_directional_mask = item.directional_mask;
+    block.draw_gi_count = probe_count(item);
     for (size_t i = 0; i < item.gi_probes.size(); ++i) {
         const int index = item.gi_probes[i];
         if (index >= 0 && static_cast<size_t>(index) < probes.size()) {

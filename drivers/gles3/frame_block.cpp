@@ -105,7 +105,20 @@ void set_directional_shadow(shaders::DirectionalLight& out, const PlacedDirectio
     }
 }
 
+/// The greatest number of GI probes that reach one of the items.
+int most_probes(std::span<const DrawItem> items) noexcept {
+    int most = 0;
+    for (const DrawItem& item : items) {
+        most = std::max(most, probe_count(item));
+    }
+    return most;
+}
+
 } // namespace
+
+int probe_count(const DrawItem& item) noexcept {
+    return item.gi_probes[0] < 0 ? 0 : (item.gi_probes[1] < 0 ? 1 : 2);
+}
 
 FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept {
     FrameFeatures f;
@@ -115,6 +128,10 @@ FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept {
         f.directional = f.directional || light.desc->type == LightType::Directional;
         f.omni = f.omni || light.desc->type == LightType::Omni;
         f.spot = f.spot || light.desc->type == LightType::Spot;
+    }
+    f.shadow_filter = frame.shadow_filter;
+    if (frame.gi_mode != GIMode::Off) {
+        f.gi_probes = std::max(most_probes(frame.opaque), most_probes(frame.transparent));
     }
     return f;
 }
@@ -146,8 +163,6 @@ shaders::FrameBlock make_frame_block(const Frame& frame,
     set_environment(block, frame);
     set_fog(block, frame);
     set_cones(block, frame.quality);
-    constexpr int kTaps[3] = {1, 5, 13};
-    block.frame_shadow_taps = kTaps[std::clamp(frame.shadow_filter, 0, 2)];
     block.frame_directional_count = std::min(frame.directional_count, kMaxDirectionalLights);
     const glm::mat3 view_from_world = glm::transpose(world_from_view.basis);
     for (size_t i = 0; i < static_cast<size_t>(block.frame_directional_count); ++i) {

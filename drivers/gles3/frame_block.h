@@ -14,7 +14,11 @@ struct FrameFeatures {
     bool sky = false; ///< ambient light and reflections from a sky
     bool fog = false;
     bool directional = false, omni = false, spot = false;
+    int gi_probes = 0;     ///< most that reach one surface: 0 to 2
+    int shadow_filter = 1; ///< of Frame
 };
+/// GI probes that reach a surface: 0 to 2.
+[[nodiscard]] int probe_count(const DrawItem& item) noexcept;
 [[nodiscard]] FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept;
 
 /// A directional light's shadow with its place in the shared map.

@@ -69,17 +69,15 @@ uint32_t map_bits(const MaterialDesc& m, uint32_t format) noexcept {
     return bits;
 }
 
+/// What varies for the whole frame. GI too: surfaces without probes take no rounds of its loops, which is
+/// cheaper than a second set of variants.
 uint32_t frame_bits(const FrameFeatures& f) noexcept {
-    return (f.sky ? Scene::kSky : 0u) | (f.fog ? Scene::kFog : 0u) |
-           (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
-           (f.spot ? Scene::kSpot : 0u);
-}
-
-uint32_t gi_bits(const DrawItem& item, GIMode mode) noexcept {
-    if (mode == GIMode::Off || item.gi_probes[0] < 0) {
-        return 0;
-    }
-    return item.gi_probes[1] >= 0 ? Scene::kGiTwo : Scene::kGiOne;
+    const uint32_t lights = (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
+                            (f.spot ? Scene::kSpot : 0u);
+    const uint32_t filter = f.shadow_filter <= 0 ? Scene::kPcf1 : (f.shadow_filter >= 2 ? Scene::kPcf13 : 0u);
+    const uint32_t gi = f.gi_probes == 0 ? 0u : (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo);
+    return lights | (lights != 0 ? filter : 0u) | gi | (f.sky ? Scene::kSky : 0u) |
+           (f.fog ? Scene::kFog : 0u);
 }
 
 gl::Cull cull_of(CullMode mode) noexcept {
@@ -144,7 +142,7 @@ bool writes_depth(const MaterialDesc& m) noexcept {
     return m.depth_draw_mode != DepthDrawMode::Never;
 }
 
-uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeatures& features, GIMode gi_mode,
+uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeatures& features,
                        Prepass prepass) noexcept {
     const MaterialDesc& m = *item.material;
     const bool discards = m.alpha_scissor && (prepass == Prepass::None || !writes_depth(m));
@@ -152,7 +150,7 @@ uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeature
     if (m.unshaded) {
         return Scene::kUnshaded | scissor | (m.albedo_texture ? Scene::kAlbedoMap : 0u);
     }
-    return scissor | map_bits(m, format) | reflection_bits(m) | gi_bits(item, gi_mode) | frame_bits(features);
+    return scissor | map_bits(m, format) | reflection_bits(m) | frame_bits(features);
 }
 
 gl::DrawState opaque_state(const DrawItem& item, Prepass prepass) noexcept {

@@ -18,7 +18,7 @@ enum class Prepass : uint8_t { None, Done };
 
 /// Bits of shaders::Scene. @param format  surface_format bits: which attributes the mesh has
 [[nodiscard]] uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeatures& features,
-                                     GIMode gi_mode, Prepass prepass) noexcept;
+                                     Prepass prepass) noexcept;
 
 /// Depth, culling and blending in the pass for opaque surfaces.
 [[nodiscard]] gl::DrawState opaque_state(const DrawItem& item, Prepass prepass) noexcept;

@@ -2,7 +2,7 @@
 from shader_parse import ShaderError
 from shader_reflect import SAMPLER_TYPES, UNIFORM_TYPES
 
-PREAMBLE_SAMPLERS = list(SAMPLER_TYPES) + ["isampler2D", "isampler3D"]
+PREAMBLE_SAMPLERS = list(SAMPLER_TYPES)
 PRECISION = "".join(f"precision highp {t};\n" for t in ["float", "int"] + PREAMBLE_SAMPLERS)
 RESERVED = {"shader_source", "kName"}
 

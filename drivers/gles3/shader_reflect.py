@@ -14,7 +14,6 @@ ARRAY_TYPES = {"float", "int", "vec2", "vec3", "vec4", "mat4"}
 SAMPLER_TYPES = {
     "sampler2D": "gl::Texture2D", "sampler2DShadow": "gl::Texture2D", "usampler2D": "gl::Texture2D",
     "sampler3D": "gl::Texture3D", "usampler3D": "gl::Texture3D", "samplerCube": "gl::TextureCube",
-    "sampler2DArray": "gl::Texture2DArray", "sampler2DArrayShadow": "gl::Texture2DArray",
 }
 MAX_UNITS = 16  # what every GLES 3.0 fragment stage has
 

@@ -15,24 +15,24 @@ in front. Errors of the driver, of glslangValidator and of this script name the 
 
 Uniforms are found by reading the declarations, in every branch of every #if, one a line:
 
-    uniform mat4 clip_from_world;             -> Uniform<Copy, glm::mat4> clip_from_world
-    uniform vec4 lights[4];                   -> UniformArray<Copy, glm::vec4> lights (literal, #define NAME 4 or
+    uniform mat4 clip_from_world;             -> Uniform<X, glm::mat4> clip_from_world
+    uniform vec4 lights[4];                   -> UniformArray<X, glm::vec4> lights (literal, #define NAME 4 or
                                                  const int NAME = 4 as the size)
-    uniform sampler3D volumes[2];             -> Sampler<Copy, gl::Texture3D> volumes; units are given in order of
+    uniform sampler3D volumes[2];             -> Sampler<X, gl::Texture3D> volumes; units are given in order of
                                                  declaration and fixed; more than 16 a program are an error
     layout(std140) uniform Camera {           -> struct shaders::CameraBlock with the std140 layout, for
-        mat4 clip_from_view;                     gl::UniformBuffer<CameraBlock>. Programs that share the name share
+        mat4 clip_from_view;                     BlockStream<CameraBlock>. Programs that share the name share
         vec3 position_m; float exposure;         the declaration (keep it in lib/) and the binding point. Members:
         vec4 planes[6];                          float, int, uint, vec, ivec, uvec, mat4, arrays of 16-byte types,
     };                                           structs of these (`struct Light { ... };`, arrays of them).
 
-`uniform` types: float int uint bool vec2-4 ivec2-3 mat3 mat4; samplers 2D, 3D, Cube, 2DArray, 2DShadow and
-usampler3D. The C++ side of copy.glsl:
+`uniform` types: float int uint bool vec2-4 ivec2-3 mat3 mat4; samplers 2D, 3D, Cube,
+2DShadow, usampler2D and usampler3D. The C++ side of tone_map.glsl:
 
-    gl::ShaderVariants<shaders::Copy> copies;
-    const gl::ShaderProgram<shaders::Copy>* copy = *copies.get(shaders::Copy::kGray);
-    copy->set(shaders::Copy::lod, 0.0f);                // a renamed or retyped uniform does not compile
-    copy->bind(shaders::Copy::source, texture);         // nor does a 3D texture here
+    gl::ShaderVariants<shaders::ToneMap> programs;
+    const gl::ShaderProgram<shaders::ToneMap>* program = *programs.get(shaders::ToneMap::kFilmic);
+    program->set(shaders::ToneMap::exposure, 1.0f);        // a renamed or retyped uniform does not compile
+    program->bind(shaders::ToneMap::radiance, texture);    // nor does a 3D texture here
 
 The struct's name is the file's in PascalCase (tone_map.glsl: ToneMap), flags are kPascalCase constants.
 """

@@ -26,6 +26,8 @@ Error glfw_error(std::string_view what) {
 class GlfwContext final : public drivers::GLContext, public drivers::Window {
 public:
     explicit GlfwContext(GLFWwindow* window) : window_(window) { input_.attach(window); }
+    GlfwContext(const GlfwContext&) = delete;
+    GlfwContext& operator=(const GlfwContext&) = delete;
     ~GlfwContext() override {
         glfwDestroyWindow(window_);
         glfwTerminate();

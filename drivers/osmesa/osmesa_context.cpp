@@ -61,6 +61,8 @@ Expected<Library> open_library() {
 class OsmesaContext final : public GLContext {
 public:
     OsmesaContext(const Library& library, OSMesaContext context) : library_(library), context_(context) {}
+    OsmesaContext(const OsmesaContext&) = delete;
+    OsmesaContext& operator=(const OsmesaContext&) = delete;
     ~OsmesaContext() override {
         if (library_.get_current_context() == context_) {
             release_current();
@@ -86,7 +88,7 @@ private:
     Library library_;
     OSMesaContext context_;
     /// Framebuffer 0, which OSMesa insists on and nobody draws to.
-    std::array<uint32_t, kEdge * kEdge> framebuffer_{};
+    std::array<uint32_t, size_t{kEdge} * kEdge> framebuffer_{};
 };
 
 } // namespace

@@ -1,10 +1,10 @@
 #include "servers/shading/brdf.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::shading {
 
@@ -29,7 +29,9 @@ float diffuse_burley(float nl, float nv, float lh, float roughness) noexcept {
     return (1.0f + f * schlick_weight(nv)) * (1.0f + f * schlick_weight(cl)) * cl / kPi;
 }
 
-float diffuse_lambert(float nl) noexcept { return std::max(nl, 0.0f) / kPi; }
+float diffuse_lambert(float nl) noexcept {
+    return std::max(nl, 0.0f) / kPi;
+}
 
 float diffuse_lambert_wrap(float nl, float roughness) noexcept {
     const float w = 1.0f + roughness;
@@ -54,7 +56,8 @@ glm::vec3 f0_from_material(const glm::vec3& albedo, float metallic, float specul
     return glm::mix(glm::vec3(0.16f * specular * specular), albedo, metallic);
 }
 
-glm::vec3 specular_ggx(float nl, float nv, float lh, float nh, float roughness, const glm::vec3& f0) noexcept {
+glm::vec3 specular_ggx(float nl, float nv, float lh, float nh, float roughness,
+                       const glm::vec3& f0) noexcept {
     const float cl = std::max(nl, 0.0f);
     const float alpha = roughness * roughness;
     const float d_base = 1.0f + (alpha * alpha - 1.0f) * nh * nh;
@@ -64,7 +67,9 @@ glm::vec3 specular_ggx(float nl, float nv, float lh, float nh, float roughness, 
     return cl * d * g * (f0 + (1.0f - f0) * schlick_weight(lh));
 }
 
-float phong_exponent(float roughness) noexcept { return std::exp2(15.0f * (1.0f - roughness) + 1.0f) * 0.25f; }
+float phong_exponent(float roughness) noexcept {
+    return std::exp2(15.0f * (1.0f - roughness) + 1.0f) * 0.25f;
+}
 
 float specular_blinn(float nl, float nh, float roughness) noexcept {
     const float sh = phong_exponent(roughness);

@@ -2,9 +2,10 @@
 
 #include <glm/vec3.hpp>
 
-// Reflection of one light and of the environment, as pure functions: the CPU twin of shaders/lib/brdf.glsl and
-// lib/environment_brdf.glsl. Vectors have unit length, colours are linear. Cosines: nl = N.L and nv_signed = N.V
-// signed; nv, lh, nh clamped at 0, with H = normalize(V + L). Source: spec scene-classes section 8.
+// Reflection of one light and of the environment, as pure functions: the CPU twin of shaders/lib/brdf.glsl
+// and lib/environment_brdf.glsl. Vectors have unit length, colours are linear. Cosines: nl = N.L and
+// nv_signed = N.V signed; nv, lh, nh clamped at 0, with H = normalize(V + L). Source: spec scene-classes
+// section 8.
 namespace cl::shading {
 
 inline constexpr float kPi = 3.14159265359f;

@@ -1,11 +1,11 @@
 #include "servers/shading/tone_map.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cl::shading {
 
@@ -17,7 +17,8 @@ glm::vec3 filmic_curve(const glm::vec3& x) noexcept {
 }
 
 glm::vec3 aces_curve(const glm::vec3& x) noexcept {
-    constexpr float a = 2.51f * 0.85f * 0.85f, b = 0.03f * 0.85f, c = 2.43f * 0.85f * 0.85f, d = 0.59f * 0.85f;
+    constexpr float a = 2.51f * 0.85f * 0.85f, b = 0.03f * 0.85f, c = 2.43f * 0.85f * 0.85f,
+                    d = 0.59f * 0.85f;
     constexpr float e = 0.14f;
     return x * (a * x + b) / (x * (c * x + d) + e);
 }

@@ -2,11 +2,12 @@
 
 #include "servers/render_types.h"
 
-#include <cstdint>
-
 #include <glm/vec3.hpp>
 
-// From scene radiance to what a screen shows: the CPU twin of shaders/lib/tone_map.glsl and of the tone map pass.
+#include <cstdint>
+
+// From scene radiance to what a screen shows: the CPU twin of shaders/lib/tone_map.glsl and of the tone map
+// pass.
 namespace cl::shading {
 
 /// Linear radiance after exposure to linear [0, 1] (spec scene-classes section 14.9).
@@ -14,7 +15,8 @@ namespace cl::shading {
 [[nodiscard]] glm::vec3 tone_map(const glm::vec3& radiance, ToneMapper mapper, float white) noexcept;
 
 /// Brightness, contrast and saturation of an sRGB-encoded colour (section 14.10); all 1 changes nothing.
-[[nodiscard]] glm::vec3 adjust(const glm::vec3& encoded, const glm::vec3& brightness_contrast_saturation) noexcept;
+[[nodiscard]] glm::vec3 adjust(const glm::vec3& encoded,
+                               const glm::vec3& brightness_contrast_saturation) noexcept;
 
 /// The byte that Godot writes for an encoded value: rounded to half precision, then floor(v * 255)
 /// (section 14.11: a viewport is read back as halves, and their conversion to 8 bit truncates).

@@ -30,7 +30,6 @@ public:
 
 private:
     void word(uint32_t w) { raw(&w, sizeof w); }
-    void number(float f) { raw(&f, sizeof f); }
     void raw(const void* data, size_t size) {
         const auto* p = static_cast<const uint8_t*>(data); // the hosts we test on are little-endian too
         bytes.insert(bytes.end(), p, p + size);
@@ -52,7 +51,8 @@ private:
     void real(uint32_t type, double v) {
         if (static_cast<double>(static_cast<float>(v)) == v) {
             word(type);
-            number(static_cast<float>(v));
+            const auto single = static_cast<float>(v);
+            raw(&single, sizeof single);
         } else {
             word(type | k64BitFlag);
             raw(&v, sizeof v);
@@ -127,9 +127,8 @@ private:
         case Type::PoolColorArray:
             return list(*v.get_if<PoolColorArray>());
         default:
-            for (const float f : components_of(v).span()) {
-                number(f);
-            }
+            const Components components = components_of(v);
+            raw(components.values.data(), static_cast<size_t>(components.count) * sizeof(float));
         }
     }
 };

@@ -103,8 +103,8 @@ TEST_SUITE("core/variant/variant_parser assignments") {
         CHECK(remarks_of("exposure = 2") == "");
     }
 
-    TEST_CASE("places of keys and values are given") {
-        VariantReader reader("a = 1\n  bc =\n Vector2( 1, 2 )", "f");
+    TEST_CASE("places of keys and values are given, and the value as written") {
+        VariantReader reader("a = 1\n  bc =\n Vector2( 1,2 ) ; c", "f");
         static_cast<void>(reader.next_item());
         const Expected<TextItem> item = reader.next_item();
         REQUIRE(item.has_value());
@@ -112,6 +112,7 @@ TEST_SUITE("core/variant/variant_parser assignments") {
         REQUIRE(assignment);
         CHECK(place(assignment->where) == "2:3");
         CHECK(place(assignment->value_where) == "3:2");
+        CHECK(assignment->raw == "Vector2( 1,2 )");
     }
 
     TEST_CASE("what Godot glues to the next key is dropped instead, so that the next assignment is kept") {

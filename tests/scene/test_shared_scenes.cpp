@@ -43,11 +43,8 @@ std::string without_space(const std::string& text) {
 
 /// Godot 3.0 wrote the path of a node itself as ".:"; it has been "." since.
 std::string with_new_paths(std::string text) {
-    constexpr std::string_view kOld = "NodePath(\".:\")";
-    for (size_t at = text.find(kOld); at != std::string::npos; at = text.find(kOld)) {
-        text.replace(at, kOld.size(), "NodePath(\".\")");
-    }
-    return text;
+    static const std::regex kOld("NodePath\\(\"([^\"]*):\"\\)");
+    return std::regex_replace(text, kOld, "NodePath(\"$1\")");
 }
 
 /// The first place where two texts part, with some of what follows; empty if they are equal.

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 namespace cl::gles3::gl {
@@ -29,6 +28,8 @@ public:
     [[nodiscard]] static Expected<Buffer> create(const BufferDesc& desc, size_t size);
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
     ~Buffer();
 
     [[nodiscard]] GLuint id() const noexcept { return id_; }
@@ -48,23 +49,4 @@ private:
     size_t size_ = 0;
 };
 
-/// A buffer with `count` copies of one uniform block (a struct generated from its std140 declaration).
-template <typename Block>
-class UniformBuffer {
-    static_assert(std::is_trivially_copyable_v<Block>);
-
-public:
-    [[nodiscard]] static Expected<UniformBuffer> create(int count = 1, std::string_view label = Block::kName);
-    Status set(const Block& block, int index = 0);
-    /// Makes copy `index` what programs see as this block, whichever programs they are.
-    void bind(int index = 0) const;
-
-private:
-    UniformBuffer(Buffer buffer, size_t stride) : buffer_(std::move(buffer)), stride_(stride) {}
-    Buffer buffer_;
-    size_t stride_; ///< sizeof(Block) rounded up to the driver's alignment [bytes]
-};
-
 } // namespace cl::gles3::gl
-
-#include "drivers/gles3/gl/uniform_buffer_inl.h"

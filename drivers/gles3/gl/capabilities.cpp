@@ -34,11 +34,7 @@ Capabilities Capabilities::query() {
     c.max_texture_size = get_int(GL_MAX_TEXTURE_SIZE);
     c.max_texture_3d_size = get_int(GL_MAX_3D_TEXTURE_SIZE);
     c.max_cube_size = get_int(GL_MAX_CUBE_MAP_TEXTURE_SIZE);
-    c.max_array_layers = get_int(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    c.max_texture_units = get_int(GL_MAX_TEXTURE_IMAGE_UNITS);
-    c.max_color_attachments = get_int(GL_MAX_COLOR_ATTACHMENTS);
     c.uniform_offset_alignment = std::max(16, get_int(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
-    c.max_uniform_block_bytes = get_int(GL_MAX_UNIFORM_BLOCK_SIZE);
     return c;
 }
 

@@ -8,7 +8,7 @@
 
 namespace cl::gles3::gl {
 
-enum class DepthTest : uint8_t { Off, Less, LessEqual, Equal, GreaterEqual, Always };
+enum class DepthTest : uint8_t { Off, Less, LessEqual, Equal, Always };
 enum class Cull : uint8_t { Off, Back, Front };
 enum class FrontFace : uint8_t { CounterClockwise, Clockwise };
 
@@ -24,17 +24,12 @@ inline constexpr Blend kReplace{};
 /// Straight alpha over.
 inline constexpr Blend kMix{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                             GL_ONE_MINUS_SRC_ALPHA};
-/// Premultiplied alpha over.
-inline constexpr Blend kPremultiplied{GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
-                                      GL_ONE_MINUS_SRC_ALPHA};
 /// Sum, weighted by the source's alpha.
 inline constexpr Blend kAdd{GL_FUNC_ADD, GL_SRC_ALPHA, GL_ONE, GL_SRC_ALPHA, GL_ONE};
 /// Target minus source, weighted by the source's alpha.
 inline constexpr Blend kSub{GL_FUNC_REVERSE_SUBTRACT, GL_SRC_ALPHA, GL_ONE, GL_SRC_ALPHA, GL_ONE};
 /// Product.
 inline constexpr Blend kMul{GL_FUNC_ADD, GL_DST_COLOR, GL_ZERO, GL_DST_ALPHA, GL_ZERO};
-/// Plain sum, also of alpha.
-inline constexpr Blend kAccumulate{GL_FUNC_ADD, GL_ONE, GL_ONE, GL_ONE, GL_ONE};
 } // namespace blend
 
 enum class WriteMask : uint8_t { None = 0, Color = 1, Depth = 2, ColorAndDepth = 3 };

@@ -140,14 +140,4 @@ std::vector<float> Framebuffer::read_rgba32f(const Rect& rect, int index) const 
     return pixels;
 }
 
-void Framebuffer::blit_color_to(const Framebuffer& target) const {
-    State& state = State::current();
-    state.set_scissor(std::nullopt);
-    state.bind_read_framebuffer(id_);
-    state.bind_draw_framebuffer(target.id_);
-    glReadBuffer(id_ == 0 ? GL_BACK : GL_COLOR_ATTACHMENT0);
-    glBlitFramebuffer(0, 0, size_.x, size_.y, 0, 0, target.size_.x, target.size_.y, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
-}
-
 } // namespace cl::gles3::gl

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] static Framebuffer window(glm::ivec2 size) noexcept;
     Framebuffer(Framebuffer&& other) noexcept;
     Framebuffer& operator=(Framebuffer&& other) noexcept;
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
     ~Framebuffer();
 
     [[nodiscard]] GLuint id() const noexcept { return id_; }
@@ -50,8 +52,6 @@ public:
     /// 8 bit: of normalised formats, 4 bytes a pixel. Floats: of float formats, 4 a pixel.
     [[nodiscard]] std::vector<uint8_t> read_rgba8(const Rect& rect, int index = 0) const;
     [[nodiscard]] std::vector<float> read_rgba32f(const Rect& rect, int index = 0) const;
-    /// Copies colour 0 to another framebuffer of the same size, no filtering.
-    void blit_color_to(const Framebuffer& target) const;
 
 private:
     Framebuffer() = default;

@@ -88,9 +88,9 @@ void Pass::draw(const Program& program, const VertexArray& vertices, const DrawS
         return;
     }
     const bool wide = vertices.index_type() == IndexType::U32;
-    const uintptr_t offset = static_cast<uintptr_t>(range.first) * (wide ? 4 : 2); // [bytes]
-    glDrawElementsInstanced(mode, range.count, wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT,
-                            reinterpret_cast<const void*>(offset), range.instances);
+    const size_t offset = static_cast<size_t>(range.first) * (wide ? 4 : 2);
+    glDrawElementsInstanced(mode, range.count, wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT, gl_offset(offset),
+                            range.instances);
 }
 
 void Pass::draw_fullscreen(const Program& program, const VertexArray& empty, const DrawState& state) {

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] static Expected<Program> create(const ShaderSource& source, uint32_t flags = 0);
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
     ~Program();
 
     [[nodiscard]] GLuint id() const noexcept { return id_; }

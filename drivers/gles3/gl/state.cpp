@@ -18,11 +18,9 @@ size_t target_slot(GLenum target) {
         return 0;
     case GL_TEXTURE_3D:
         return 1;
-    case GL_TEXTURE_CUBE_MAP:
-        return 2;
     default:
-        CL_ASSERT(target == GL_TEXTURE_2D_ARRAY, "a texture target that State knows");
-        return 3;
+        CL_ASSERT(target == GL_TEXTURE_CUBE_MAP, "a texture target that State knows");
+        return 2;
     }
 }
 
@@ -38,8 +36,6 @@ GLenum gl_depth_function(DepthTest test) {
         return GL_LEQUAL;
     case DepthTest::Equal:
         return GL_EQUAL;
-    case DepthTest::GreaterEqual:
-        return GL_GEQUAL;
     case DepthTest::Off:
     case DepthTest::Always:
         break;

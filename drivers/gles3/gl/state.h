@@ -11,8 +11,8 @@
 
 namespace cl::gles3::gl {
 
-enum class ObjectKind : uint8_t { Texture, Buffer, VertexArray, Framebuffer, Program, Query };
-inline constexpr int kObjectKinds = 6;
+enum class ObjectKind : uint8_t { Texture, Buffer, VertexArray, Framebuffer, Program };
+inline constexpr int kObjectKinds = 5;
 
 /// The one place that binds, enables, makes and deletes GL objects. It mirrors the context, so that redundant
 /// calls are skipped; nobody else may change these parts of GL state. One State per context, on one thread.
@@ -45,7 +45,7 @@ public:
     // ----------------------------------------------------------------------------------------------
     void use_program(GLuint program);
     void bind_vertex_array(GLuint vertex_array);
-    /// For sampling. `target`: GL_TEXTURE_2D, _3D, _CUBE_MAP or _2D_ARRAY.
+    /// For sampling. `target`: GL_TEXTURE_2D, _3D or _CUBE_MAP.
     void bind_texture(int unit, GLenum target, GLuint texture);
     /// For uploads and parameters: binds to a unit that no program samples from.
     void bind_texture_for_edit(GLenum target, GLuint texture);
@@ -68,7 +68,7 @@ private:
     static constexpr int kUnits = 32;
     static constexpr int kUniformBindings = 24;
     struct TextureUnit {
-        GLuint names[4] = {};
+        GLuint names[3] = {};
     };
     struct UniformRange {
         GLuint buffer = 0;

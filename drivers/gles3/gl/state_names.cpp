@@ -23,9 +23,6 @@ GLuint State::create(ObjectKind kind) {
     case ObjectKind::Program:
         name = glCreateProgram();
         break;
-    case ObjectKind::Query:
-        glGenQueries(1, &name);
-        break;
     }
     CL_ASSERT(name != 0, "GL gives names; it cannot after the context was lost");
     ++live_[static_cast<size_t>(kind)];
@@ -64,9 +61,6 @@ void State::destroy(ObjectKind kind, GLuint name) {
         }
         glDeleteProgram(name);
         break;
-    case ObjectKind::Query:
-        glDeleteQueries(1, &name);
-        break;
     }
     --live_[static_cast<size_t>(kind)];
 }
@@ -83,8 +77,8 @@ void State::label(ObjectKind kind, GLuint name, std::string_view text) {
     if (!capabilities_.debug_labels || text.empty()) {
         return;
     }
-    static constexpr GLenum kIdentifiers[kObjectKinds] = {GL_TEXTURE,     GL_BUFFER_KHR,  GL_VERTEX_ARRAY_KHR,
-                                                          GL_FRAMEBUFFER, GL_PROGRAM_KHR, GL_QUERY_KHR};
+    static constexpr GLenum kIdentifiers[kObjectKinds] = {GL_TEXTURE, GL_BUFFER_KHR, GL_VERTEX_ARRAY_KHR,
+                                                          GL_FRAMEBUFFER, GL_PROGRAM_KHR};
     glObjectLabelKHR(kIdentifiers[static_cast<size_t>(kind)], name, static_cast<GLsizei>(text.size()),
                      text.data());
 }

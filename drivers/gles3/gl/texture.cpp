@@ -11,19 +11,13 @@ namespace cl::gles3::gl {
 
 namespace {
 
-bool is_layered(GLenum target) {
-    return target == GL_TEXTURE_3D || target == GL_TEXTURE_2D_ARRAY;
-}
-
-/// Largest size the driver takes: z in layers or depth.
+/// Largest size the driver takes.
 glm::ivec3 size_limit(GLenum target, const Capabilities& c) {
     switch (target) {
     case GL_TEXTURE_3D:
         return glm::ivec3(c.max_texture_3d_size);
     case GL_TEXTURE_CUBE_MAP:
         return {c.max_cube_size, c.max_cube_size, 1};
-    case GL_TEXTURE_2D_ARRAY:
-        return {c.max_texture_size, c.max_texture_size, c.max_array_layers};
     default:
         return {c.max_texture_size, c.max_texture_size, 1};
     }
@@ -104,11 +98,7 @@ Texture::~Texture() {
 }
 
 glm::ivec3 Texture::size(int mip) const noexcept {
-    glm::ivec3 s = glm::max(glm::ivec3(size_.x >> mip, size_.y >> mip, size_.z >> mip), 1);
-    if (target_ == GL_TEXTURE_2D_ARRAY) {
-        s.z = size_.z;
-    }
-    return s;
+    return glm::max(glm::ivec3(size_.x >> mip, size_.y >> mip, size_.z >> mip), 1);
 }
 
 Expected<Texture> Texture::allocate(const Storage& storage) {
@@ -120,14 +110,10 @@ Expected<Texture> Texture::allocate(const Storage& storage) {
                      fmt::format("texture {}: expected a size of 1 to {}, found {}", storage.label,
                                  describe(limit), describe(storage.size))};
     }
-    glm::ivec3 shrinking = storage.size;
-    if (storage.target == GL_TEXTURE_2D_ARRAY) {
-        shrinking.z = 1;
-    }
-    if (storage.mips < 1 || storage.mips > full_mip_count(shrinking)) {
-        return Error{ErrorCode::InvalidArgument,
-                     fmt::format("texture {}: expected 1 to {} mips, found {}", storage.label,
-                                 full_mip_count(shrinking), storage.mips)};
+    const int most_mips = full_mip_count(storage.size);
+    if (storage.mips < 1 || storage.mips > most_mips) {
+        return Error{ErrorCode::InvalidArgument, fmt::format("texture {}: expected 1 to {} mips, found {}",
+                                                             storage.label, most_mips, storage.mips)};
     }
     Texture texture;
     texture.id_ = state.create(ObjectKind::Texture);
@@ -138,7 +124,7 @@ Expected<Texture> Texture::allocate(const Storage& storage) {
     state.bind_texture_for_edit(storage.target, texture.id_);
     drop_old_errors();
     const GLenum internal = format_info(storage.format).internal;
-    if (is_layered(storage.target)) {
+    if (storage.target == GL_TEXTURE_3D) {
         glTexStorage3D(storage.target, storage.mips, internal, storage.size.x, storage.size.y,
                        storage.size.z);
     } else {
@@ -149,7 +135,7 @@ Expected<Texture> Texture::allocate(const Storage& storage) {
                                                          storage.label, describe(storage.size), format)};
     }
     state.label(ObjectKind::Texture, texture.id_, storage.label);
-    texture.set_mip_range(0, storage.mips - 1);
+    glTexParameteri(storage.target, GL_TEXTURE_MAX_LEVEL, storage.mips - 1);
     texture.set_sampler(storage.sampler);
     return texture;
 }
@@ -205,13 +191,6 @@ void Texture::set_sampler(const SamplerDesc& sampler) {
 void Texture::generate_mips() {
     State::current().bind_texture_for_edit(target_, id_);
     glGenerateMipmap(target_);
-}
-
-void Texture::set_mip_range(int first, int last) {
-    CL_ASSERT(first >= 0 && first <= last && last < mips_, "mip levels of the texture");
-    State::current().bind_texture_for_edit(target_, id_);
-    glTexParameteri(target_, GL_TEXTURE_BASE_LEVEL, first);
-    glTexParameteri(target_, GL_TEXTURE_MAX_LEVEL, last);
 }
 
 } // namespace cl::gles3::gl

@@ -55,15 +55,6 @@ struct TextureCubeDesc {
     SamplerDesc sampler{};
     std::string_view label{};
 };
-struct Texture2DArrayDesc {
-    glm::ivec2 size{0};
-    int layers = 1;
-    Format format = Format::RGBA8;
-    int mips = 1;
-    SamplerDesc sampler{};
-    std::string_view label{};
-};
-
 /// Faces in GL's order; images of a face have row 0 where t = 0.
 enum class CubeFace : uint8_t { PositiveX, NegativeX, PositiveY, NegativeY, PositiveZ, NegativeZ };
 
@@ -72,13 +63,15 @@ class Texture {
 public:
     Texture(Texture&& other) noexcept;
     Texture& operator=(Texture&& other) noexcept;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
     ~Texture();
 
     [[nodiscard]] GLuint id() const noexcept { return id_; }
     [[nodiscard]] GLenum target() const noexcept { return target_; }
     [[nodiscard]] Format format() const noexcept { return format_; }
     [[nodiscard]] int mips() const noexcept { return mips_; }
-    /// z: depth or layers, else 1. Of a mip: halved per level, at least 1 (not the layers).
+    /// z: depth, else 1. Of a mip: halved per level, at least 1.
     [[nodiscard]] glm::ivec3 size(int mip = 0) const noexcept;
 
     /// For sampling by a program; see ShaderProgram::bind, which checks the kind.
@@ -86,8 +79,6 @@ public:
     void set_sampler(const SamplerDesc& sampler);
     /// Fills levels 1.. from level 0 (a box filter on llvmpipe; of colour formats only).
     void generate_mips();
-    /// Limits sampling to levels first..last, so that one level can be rendered while others are read.
-    void set_mip_range(int first, int last);
 
 protected:
     struct Storage {
@@ -141,15 +132,6 @@ public:
 
 private:
     explicit TextureCube(Texture&& base) : Texture(std::move(base)) {}
-};
-
-class Texture2DArray final : public Texture {
-public:
-    [[nodiscard]] static Expected<Texture2DArray> create(const Texture2DArrayDesc& desc);
-    Status upload(int layer, int mip, std::span<const std::byte> texels);
-
-private:
-    explicit Texture2DArray(Texture&& base) : Texture(std::move(base)) {}
 };
 
 } // namespace cl::gles3::gl

@@ -1,4 +1,4 @@
-// Making and filling the four kinds of textures; what they share is in texture.cpp.
+// Making and filling the three kinds of textures; what they share is in texture.cpp.
 #include "drivers/gles3/gl/state.h"
 #include "drivers/gles3/gl/texture.h"
 
@@ -62,26 +62,6 @@ Status TextureCube::upload(CubeFace face, int mip, std::span<const std::byte> te
     State::current().bind_texture_for_edit(target_, id_);
     glTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), mip, 0, 0, box.x, box.y,
                     f.transfer, f.type, texels.data());
-    return {};
-}
-
-Expected<Texture2DArray> Texture2DArray::create(const Texture2DArrayDesc& d) {
-    Expected<Texture> base =
-        allocate({GL_TEXTURE_2D_ARRAY, glm::ivec3(d.size, d.layers), d.format, d.mips, d.sampler, d.label});
-    if (!base) {
-        return base.error();
-    }
-    return Texture2DArray(*std::move(base));
-}
-
-Status Texture2DArray::upload(int layer, int mip, std::span<const std::byte> texels) {
-    const glm::ivec3 box(glm::ivec2(size(mip)), 1);
-    if (Status s = check_upload(mip, glm::ivec3(0, 0, layer), box, texels.size()); !s) {
-        return s;
-    }
-    const FormatInfo& f = format_info(format_);
-    State::current().bind_texture_for_edit(target_, id_);
-    glTexSubImage3D(target_, mip, 0, 0, layer, box.x, box.y, 1, f.transfer, f.type, texels.data());
     return {};
 }
 

@@ -81,7 +81,7 @@ VertexArray VertexArray::create(const VertexArrayDesc& desc) {
         const auto location = static_cast<GLuint>(a.attribute);
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location, a.components, a.type, a.normalized, desc.stride,
-                              reinterpret_cast<const void*>(static_cast<uintptr_t>(a.offset)));
+                              gl_offset(static_cast<size_t>(a.offset)));
     }
     if (desc.indices) {
         state.bind_buffer(GL_ELEMENT_ARRAY_BUFFER, desc.indices->id());
@@ -92,6 +92,10 @@ VertexArray VertexArray::create(const VertexArrayDesc& desc) {
 
 VertexArray VertexArray::create_empty() {
     return create({});
+}
+
+const void* gl_offset(size_t bytes) noexcept {
+    return reinterpret_cast<const void*>(bytes); // NOLINT(performance-no-int-to-ptr): GL's interface
 }
 
 GLenum gl_primitive(PrimitiveType type) noexcept {

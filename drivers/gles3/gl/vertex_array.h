@@ -52,6 +52,8 @@ public:
     [[nodiscard]] static VertexArray create_empty();
     VertexArray(VertexArray&& other) noexcept;
     VertexArray& operator=(VertexArray&& other) noexcept;
+    VertexArray(const VertexArray&) = delete;
+    VertexArray& operator=(const VertexArray&) = delete;
     ~VertexArray();
 
     [[nodiscard]] GLuint id() const noexcept { return id_; }
@@ -62,6 +64,9 @@ private:
     GLuint id_ = 0;
     IndexType index_type_ = IndexType::None;
 };
+
+/// GL takes offsets into buffers as pointers. [bytes]
+[[nodiscard]] const void* gl_offset(size_t bytes) noexcept;
 
 /// GL's name of a primitive type.
 [[nodiscard]] GLenum gl_primitive(PrimitiveType type) noexcept;

@@ -86,7 +86,7 @@ Status ScenePass::draw_opaque(const RenderTarget& target, const Inputs& inputs, 
                 continue;
             }
             const uint32_t variant =
-                scene_variant(*draw.item, draw.surface->format, inputs.features, frame.gi_mode, prepass);
+                scene_variant(*draw.item, draw.surface->format, inputs.features, prepass);
             const gl::DrawState state = opaque_state(*draw.item, prepass);
             if (Status s = draw_surface(pass, draw, inputs, variant, state, stats); !s) {
                 return s;
@@ -103,8 +103,8 @@ Status ScenePass::draw_transparent(const RenderTarget& target, const Inputs& inp
     gl::Pass pass({.label = "transparent", .target = &target.scene});
     bind_frame_inputs(inputs);
     for (const SceneDraw& draw : inputs.draws.transparent()) {
-        const uint32_t variant = scene_variant(*draw.item, draw.surface->format, inputs.features,
-                                               inputs.frame.gi_mode, Prepass::None);
+        const uint32_t variant =
+            scene_variant(*draw.item, draw.surface->format, inputs.features, Prepass::None);
         if (Status s = draw_surface(pass, draw, inputs, variant, transparent_state(*draw.item), stats); !s) {
             return s;
         }

@@ -13,8 +13,7 @@ void main() {
 }
 
 #pragma stage fragment
-#include "lib/frame_block.glsl"
-#include "lib/shadow.glsl"
+#include "lib/paraboloid.glsl"
 in vec2 v_uv;
 uniform samplerCube faces;
 uniform vec2 near_far; // of the faces' projection [m]

@@ -1,13 +1,13 @@
 // scene.glsl -- forward shading of one surface: all its lights, ambient light or GI, emission, fog
 // output   linear radiance [W m^-2 sr^-1], straight alpha; before exposure and tone mapping
 // source   spec gi-shading section 7 (composition), scene-classes sections 8 and 14.3
-#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO SKY FOG DIRECTIONAL OMNI SPOT DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
+#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO SKY FOG DIRECTIONAL OMNI SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
 #pragma validate
 #pragma validate UNSHADED ALBEDO_MAP ALPHA_SCISSOR
-#pragma validate ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR GI_ONE GI_TWO SKY FOG DIRECTIONAL OMNI SPOT
+#pragma validate ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR GI_TWO SKY FOG DIRECTIONAL OMNI SPOT
 #pragma validate GI_ONE DIRECTIONAL OMNI SPOT DIFFUSE_LAMBERT SPECULAR_DISABLED
-#pragma validate SKY OMNI DIFFUSE_WRAP SPECULAR_BLINN
-#pragma validate FOG SPOT DIFFUSE_OREN_NAYAR SPECULAR_PHONG
+#pragma validate SKY OMNI PCF1 DIFFUSE_WRAP SPECULAR_BLINN
+#pragma validate FOG SPOT PCF13 DIFFUSE_OREN_NAYAR SPECULAR_PHONG
 #pragma validate DIRECTIONAL DIFFUSE_TOON SPECULAR_TOON
 
 #include "lib/frame_block.glsl"
@@ -59,6 +59,7 @@ uniform sampler3D gi_volume_2;
 #include "lib/brdf.glsl"
 #include "lib/environment_brdf.glsl"
 #include "lib/shadow.glsl"
+#include "lib/paraboloid.glsl"
 #include "lib/lights.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gi_probe.glsl"
@@ -106,15 +107,15 @@ void gather_gi(Surface s, vec3 reflection, inout vec3 ambient, inout vec3 enviro
 
 LightSum direct_light(Surface s) {
     LightSum sum = LightSum(vec3(0.0), vec3(0.0));
-    int shadow_taps = draw_receives_shadows != 0 ? frame_shadow_taps : 0;
+    bool shadows_on = draw_receives_shadows != 0;
 #ifdef DIRECTIONAL
-    add_directional_lights(s, shadow_taps, sum);
+    add_directional_lights(s, shadows_on, sum);
 #endif
 #ifdef OMNI
-    add_omni_lights(s, shadow_taps, sum);
+    add_omni_lights(s, shadows_on, sum);
 #endif
 #ifdef SPOT
-    add_spot_lights(s, shadow_taps, sum);
+    add_spot_lights(s, shadows_on, sum);
 #endif
     return sum;
 }

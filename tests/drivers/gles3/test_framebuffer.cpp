@@ -128,21 +128,6 @@ TEST_SUITE("drivers/gles3/gl/framebuffer") {
                   ErrorCode::InvalidArgument);
         });
     }
-
-    TEST_CASE("[gl] a copy to another framebuffer has the same pixels") {
-        on_each_gl([](GLTest&) {
-            const gl::Texture2D a = make_color({4, 4}), b = make_color({4, 4});
-            const Expected<gl::Framebuffer> from = gl::Framebuffer::create({.colors = {{{&a}}}});
-            const Expected<gl::Framebuffer> to = gl::Framebuffer::create({.colors = {{{&b}}}});
-            REQUIRE(from);
-            REQUIRE(to);
-            clear(*from, glm::vec4(0.0f));
-            clear(*from, glm::vec4(1.0f), gl::Rect{{1, 2}, {2, 1}});
-            clear(*to, glm::vec4(0.4f));
-            from->blit_color_to(*to);
-            CHECK(to->read_rgba8({{0, 0}, {4, 4}}) == from->read_rgba8({{0, 0}, {4, 4}}));
-        });
-    }
 }
 
 TEST_SUITE("drivers/gles3/gl/pass") {

@@ -216,29 +216,6 @@ TEST_SUITE("drivers/gles3/gl/texture") {
         });
     }
 
-    TEST_CASE("[gl] layers of an array do not mix") {
-        on_each_gl([](GLTest&) {
-            Expected<gl::Texture2DArray> array =
-                gl::Texture2DArray::create({.size = {2, 2}, .layers = 3, .mips = 2});
-            REQUIRE(array);
-            CHECK(array->size(1) == glm::ivec3(1, 1, 3));
-            for (int layer = 0; layer < 3; ++layer) {
-                REQUIRE(array->upload(layer, 0, solid({2, 2, 1}, {uint8_t(100 * layer), 0, 0, 0})));
-                REQUIRE(array->upload(layer, 1, solid({1, 1, 1}, {uint8_t(100 * layer), 0, 0, 0})));
-            }
-            array->bind(0);
-            static constexpr gl::SamplerDecl kArray[] = {{"map", "sampler2DArray", 0, 1}};
-            const auto got = probe_fragments(
-                "uniform sampler2DArray map;\n"
-                "vec4 probe(int i) { return textureLod(map, vec3(0.5, 0.5, float(i)), 0.0); }",
-                3, kArray);
-            for (int layer = 0; layer < 3; ++layer) {
-                CHECK(got[static_cast<size_t>(layer)].r ==
-                      doctest::Approx(100.0f * static_cast<float>(layer) / 255.0f));
-            }
-        });
-    }
-
     TEST_CASE("[gl] a shadow sampler compares with less or equal") {
         on_each_gl([](GLTest&) {
             Expected<gl::Texture2D> depth =

@@ -41,5 +41,6 @@ layout(std140) uniform Draw {
     float draw_receives_ambient;
     int draw_receives_shadows;
     int draw_directional_mask; // bit i: directional light i counts
+    int draw_gi_count; // of the probes below that reach the instance; 0: it keeps its ambient light
     GIProbe draw_gi[2];
 };

@@ -60,8 +60,9 @@ void add_gi_probe(sampler3D volume, GIProbe probe, GIPoint at, inout GISum sum) 
     sum.specular += vec4(specular * probe.multiplier, 1.0) * factor;
 }
 
-/// Replaces ambient and environment by what the probes gathered; nothing, where none reaches.
-void resolve_gi(GISum sum, out vec3 ambient, out vec3 environment) {
-    ambient = sum.diffuse.rgb / max(sum.diffuse.a, 1e-20);
-    environment = sum.specular.rgb / max(sum.specular.a, 1e-20);
+/// Replaces ambient and environment by what the probes gathered; by nothing, where none reaches.
+void resolve_gi(GISum sum, inout vec3 ambient, inout vec3 environment) {
+    bool has_probes = draw_gi_count > 0;
+    ambient = has_probes ? sum.diffuse.rgb / max(sum.diffuse.a, 1e-20) : ambient;
+    environment = has_probes ? sum.specular.rgb / max(sum.specular.a, 1e-20) : environment;
 }

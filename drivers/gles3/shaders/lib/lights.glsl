@@ -1,7 +1,7 @@
 // shaders/lib/lights.glsl -- direct light of all lights of an instance at one point; library, no main()
 // space    view space [m]; colours linear
-// needs    lib/frame_block.glsl, lib/draw_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl; samplers shadow_atlas,
-//          directional_shadow
+// needs    lib/frame_block.glsl, lib/draw_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl,
+//          lib/paraboloid.glsl; samplers shadow_atlas, directional_shadow
 // variants DIFFUSE_*, SPECULAR_* choose the reflection; none = Burley, GGX
 // source   spec scene-classes sections 8 and 9. Departs: every directional light in one pass, so that emission and
 //          ambient light count once
@@ -68,13 +68,13 @@ float distance_attenuation(float distance, float range, float exponent) {
 
 // --- directional -------------------------------------------------------------------------------------------------
 
-float directional_split_shadow(vec3 p, vec4 uv, vec4 depth, vec2 texel, int taps) {
+float directional_split_shadow(vec3 p, vec4 uv, vec4 depth, vec2 texel, bool wanted) {
     // A split's square is wider than its part of the view by more than the filter: no limits are needed.
     vec3 at = vec3(p.xy * uv.xy + uv.zw, p.z * depth.x + depth.y);
-    return shadow_lookup(directional_shadow, at, vec4(0.0, 0.0, 1.0, 1.0), texel, taps);
+    return shadow_lookup(directional_shadow, at, vec4(0.0, 0.0, 1.0, 1.0), texel, wanted);
 }
 
-float directional_shadow_at(DirectionalLight light, vec3 position, int shadow_taps) {
+float directional_shadow_at(DirectionalLight light, vec3 position, bool wanted) {
     float depth = -position.z;
     vec4 p4 = vec4(position, 1.0);
     vec3 p = vec3(dot(light.shadow_row_x, p4), dot(light.shadow_row_y, p4), dot(light.shadow_row_z, p4));
@@ -90,20 +90,20 @@ float directional_shadow_at(DirectionalLight light, vec3 position, int shadow_ta
             range = light.split_depth[i];
         }
     }
-    int taps = light.splits > 0 && depth < range.z ? shadow_taps : 0;
+    wanted = wanted && light.splits > 0 && depth < range.z;
     vec2 texel = 1.0 / vec2(textureSize(directional_shadow, 0));
-    float lit = directional_split_shadow(p, uv, range, texel, taps);
-    int next_taps = light.blend_splits != 0 ? taps : 0;
-    float next_lit = directional_split_shadow(p, next_uv, next_range, texel, next_taps);
-    lit = next_taps > 0 ? mix(lit, next_lit, smoothstep(range.w, range.z, depth)) : lit;
+    float lit = directional_split_shadow(p, uv, range, texel, wanted);
+    bool blends = wanted && light.blend_splits != 0;
+    float next_lit = directional_split_shadow(p, next_uv, next_range, texel, blends);
+    lit = blends ? mix(lit, next_lit, smoothstep(range.w, range.z, depth)) : lit;
     return mix(lit, 1.0, smoothstep(light.fade_begin, light.fade_end, depth));
 }
 
-void add_directional_lights(Surface s, int shadow_taps, inout LightSum sum) {
+void add_directional_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < frame_directional_count; ++i) {
         DirectionalLight light = frame_directional[i];
         bool counts = (draw_directional_mask >> i & 1) == 1;
-        float lit = directional_shadow_at(light, s.position, counts ? shadow_taps : 0);
+        float lit = directional_shadow_at(light, s.position, counts && shadows_on);
         vec3 color = light.color * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, light.to_light, counts ? color : vec3(0.0), light.specular, sum);
     }
@@ -111,7 +111,7 @@ void add_directional_lights(Surface s, int shadow_taps, inout LightSum sum) {
 
 // --- omni and spot -----------------------------------------------------------------------------------------------
 
-float omni_shadow_at(LocalLight light, vec3 position, int taps) {
+float omni_shadow_at(LocalLight light, vec3 position, bool wanted) {
     vec3 p = (light.shadow_from_view * vec4(position, 1.0)).xyz;
     float distance = length(p);
     vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
@@ -119,32 +119,32 @@ float omni_shadow_at(LocalLight light, vec3 position, int taps) {
     vec4 limits = vec4(light.shadow_rect.xy + vec2(0.0, upper) * light.shadow_rect.zw + 0.5 * texel,
                        light.shadow_rect.xy + vec2(1.0, upper + 0.5) * light.shadow_rect.zw - 0.5 * texel);
     vec2 uv = paraboloid_uv(p / distance) * light.shadow_rect.zw + light.shadow_rect.xy;
-    return shadow_lookup(shadow_atlas, vec3(uv, distance / light.range), limits, texel, taps);
+    return shadow_lookup(shadow_atlas, vec3(uv, distance / light.range), limits, texel, wanted);
 }
 
-void add_omni_lights(Surface s, int shadow_taps, inout LightSum sum) {
+void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < set_omni_count; ++i) {
         LocalLight light = set_omnis[i];
         vec3 to_light = light.position - s.position;
         float distance = length(to_light);
         float attenuation = distance_attenuation(distance, light.range, light.attenuation);
-        int taps = attenuation > 0.0 && light.has_shadow != 0 ? shadow_taps : 0;
-        float lit = omni_shadow_at(light, s.position, taps);
+        bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
+        float lit = omni_shadow_at(light, s.position, in_reach);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light / max(distance, 1e-6), color, light.specular, sum);
     }
 }
 
-float spot_shadow_at(LocalLight light, vec3 position, int taps) {
+float spot_shadow_at(LocalLight light, vec3 position, bool wanted) {
     vec4 p = light.shadow_from_view * vec4(position, 1.0);
     vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
     vec4 limits = vec4(light.shadow_rect.xy + 0.5 * texel, light.shadow_rect.xy + light.shadow_rect.zw - 0.5 * texel);
     vec3 at = p.xyz / p.w;
     return shadow_lookup(shadow_atlas, vec3(at.xy * light.shadow_rect.zw + light.shadow_rect.xy, at.z), limits, texel,
-                         taps);
+                         wanted);
 }
 
-void add_spot_lights(Surface s, int shadow_taps, inout LightSum sum) {
+void add_spot_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < set_spot_count; ++i) {
         LocalLight light = set_spots[i];
         vec3 from_surface = light.position - s.position;
@@ -154,8 +154,8 @@ void add_spot_lights(Surface s, int shadow_taps, inout LightSum sum) {
         float rim = max(0.0001, (1.0 - cosine) / max(1.0 - light.cos_angle, 1e-6));
         float attenuation = distance_attenuation(distance, light.range, light.attenuation) *
                             (1.0 - pow(rim, light.angle_attenuation));
-        int taps = attenuation > 0.0 && light.has_shadow != 0 ? shadow_taps : 0;
-        float lit = spot_shadow_at(light, s.position, taps);
+        bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
+        float lit = spot_shadow_at(light, s.position, in_reach);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light, color, light.specular, sum);
     }
