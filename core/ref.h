@@ -16,7 +16,9 @@ public:
     RefCounted& operator=(const RefCounted&) noexcept { return *this; }
     void retain() const noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
     /// True if this was the last owner: the caller deletes.
-    [[nodiscard]] bool release() const noexcept { return count_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
+    [[nodiscard]] bool release() const noexcept {
+        return count_.fetch_sub(1, std::memory_order_acq_rel) == 1;
+    }
     [[nodiscard]] int use_count() const noexcept { return count_.load(std::memory_order_relaxed); }
 
 protected:
@@ -36,10 +38,7 @@ public:
     Ref(const Ref& other) : object_(other.object_) { retain(); }
     Ref(Ref&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
     template <typename U>
-        requires std::is_convertible_v<U*, T*>
-    Ref(const Ref<U>& other) : object_(other.get()) {
-        retain();
-    }
+    requires std::is_convertible_v<U*, T*> Ref(const Ref<U>& other) : object_(other.get()) { retain(); }
     ~Ref() { drop(); }
     Ref& operator=(const Ref& other) {
         if (this != &other) {

@@ -6,12 +6,13 @@
 
 namespace cl {
 
-/// Number of worker threads for everything in the process; 0 = all cores. Call before the first parallel work.
+/// Number of worker threads for everything in the process; 0 = all cores. Call before the first parallel
+/// work.
 void set_thread_count(int count);
 [[nodiscard]] int thread_count();
 
-/// Calls body(begin, end) on disjoint ranges that cover [0, count), on all workers; returns when all are done.
-/// The split depends on timing: results must not.
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), on all workers; returns when all are
+/// done. The split depends on timing: results must not.
 void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
 
 /// One job at a time off the calling thread, in the order they were pushed.

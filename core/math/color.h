@@ -5,7 +5,8 @@
 
 namespace cl {
 
-/// A colour as scene files store it: sRGB-encoded unless the name says otherwise, not clamped, alpha straight.
+/// A colour as scene files store it: sRGB-encoded unless the name says otherwise, not clamped, alpha
+/// straight.
 struct Color {
     float r = 0.0f;
     float g = 0.0f;

@@ -58,7 +58,7 @@ struct TextAssignment {
     Variant value;
     SourceLocation where;       ///< of the key
     SourceLocation value_where; ///< of the value
-    std::string_view raw{};      ///< the value as written; points into the reader's text
+    std::string_view raw{};     ///< the value as written; points into the reader's text
 };
 
 /// monostate at the end of the text.

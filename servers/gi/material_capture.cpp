@@ -25,7 +25,8 @@ std::vector<glm::vec3> captured_map(const Image* texture, const glm::vec3& scale
     std::vector<glm::vec3> map(size_t(kCaptureSize) * kCaptureSize);
     for (size_t i = 0; i < map.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            // In double until the end: albedo bytes are truncated later, so the last bit decides some of them.
+            // In double until the end: albedo bytes are truncated later, so the last bit decides some of
+            // them.
             const double share = texels.data[i * 4 + size_t(c)] / 255.0;
             map[i][c] = float(share * double(scale[c]) + double(offset[c]));
         }

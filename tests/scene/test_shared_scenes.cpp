@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <regex>
 
 using namespace cl;
 using namespace cl::scene;
