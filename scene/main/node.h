@@ -49,8 +49,7 @@ public:
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
-    // --- name and place
-    // -------------------------------------------------------------------------------------
+    // --- name and place ------------------------------------------------------------------------------
     [[nodiscard]] const StringName& name() const noexcept { return name_; }
     /// Drops the characters . : @ / " and, below a parent, makes the name unique among its siblings.
     /// An empty name is refused.
@@ -102,8 +101,7 @@ public:
     [[nodiscard]] const std::string& scene_file() const noexcept { return scene_file_; }
     void set_scene_file(std::string path) { scene_file_ = std::move(path); }
 
-    // --- tree
-    // -----------------------------------------------------------------------------------------------
+    // --- tree ----------------------------------------------------------------------------------------
     [[nodiscard]] SceneTree* tree() const noexcept { return tree_; }
     [[nodiscard]] bool is_inside_tree() const noexcept { return tree_ != nullptr; }
     [[nodiscard]] bool is_ready() const noexcept { return ready_; }
@@ -112,8 +110,7 @@ public:
     void queue_free();
     [[nodiscard]] bool is_queued_for_deletion() const noexcept { return queued_for_deletion_; }
 
-    // --- groups
-    // ---------------------------------------------------------------------------------------------
+    // --- groups --------------------------------------------------------------------------------------
     struct Group {
         StringName name;
         GroupSaving saving = GroupSaving::NotSaved;
@@ -123,8 +120,7 @@ public:
     [[nodiscard]] bool is_in_group(const StringName& group) const noexcept;
     [[nodiscard]] const std::vector<Group>& groups() const noexcept { return groups_; }
 
-    // --- processing
-    // -----------------------------------------------------------------------------------------
+    // --- processing ----------------------------------------------------------------------------------
     /// Off for a plain node. A script turns it on.
     void set_process(bool on);
     [[nodiscard]] bool is_processing() const noexcept { return processing_; }
@@ -135,8 +131,7 @@ public:
     [[nodiscard]] int process_priority() const noexcept { return process_priority_; }
     void set_process_priority(int priority);
 
-    // --- behaviour
-    // ------------------------------------------------------------------------------------------
+    // --- behaviour -----------------------------------------------------------------------------------
     /// Attaches behaviour (or takes it off: nullptr). Its properties take the values that a scene file gave
     /// this node under the same names. If the node is ready, the script's ready() follows at once.
     void set_script_instance(std::unique_ptr<ScriptInstance> script);

@@ -52,8 +52,7 @@ public:
     /// nullptr if the tree has none.
     [[nodiscard]] VisualServer* server() const noexcept { return server_; }
 
-    // --- time
-    // -----------------------------------------------------------------------------------------------
+    // --- time ----------------------------------------------------------------------------------------
     /// @param delta_s  time since the last step [s]
     void step(double delta_s);
     [[nodiscard]] double delta_s() const noexcept { return delta_s_; } ///< of the step that runs or ran last
@@ -71,8 +70,7 @@ public:
     /// on the frames before.
     Status draw_settled();
 
-    // --- groups
-    // ---------------------------------------------------------------------------------------------
+    // --- groups --------------------------------------------------------------------------------------
     /// In tree order.
     [[nodiscard]] std::vector<Node*> nodes_in_group(const StringName& group);
     /// Calls a method of every node of a group, in tree order. Nodes without that method are left out.
