@@ -9,10 +9,10 @@ namespace cl {
 namespace {
 
 /// The object of a class that we do not have: it only keeps what the text says of it.
-Variant make_declared_object(const std::string& class_name, std::vector<TextProperty> properties) {
+Variant make_declared_object(const std::string& class_name, const std::vector<TextProperty>& properties) {
     Ref<Reference> object(new Reference);
     object->set_declared_class(StringName(class_name));
-    for (TextProperty& property : properties) {
+    for (const TextProperty& property : properties) {
         object->set(StringName(property.name), property.value);
     }
     return object;
@@ -60,12 +60,12 @@ bool ValueReader::read_resource_path(size_t offset, Variant& out) {
     return accept(options_.resource(path), offset, out);
 }
 
-bool ValueReader::make_object(std::string class_name, std::vector<TextProperty> properties, size_t offset,
-                              Variant& out) {
+bool ValueReader::make_object(const std::string& class_name, std::vector<TextProperty> properties,
+                              size_t offset, Variant& out) {
     if (options_.object) {
         return accept(options_.object(class_name, std::move(properties)), offset, out);
     }
-    out = make_declared_object(class_name, std::move(properties));
+    out = make_declared_object(class_name, properties);
     return true;
 }
 
@@ -97,7 +97,7 @@ bool ValueReader::read_object(size_t offset, Variant& out) {
             return false;
         }
     }
-    return make_object(std::move(class_name), std::move(properties), offset, out);
+    return make_object(class_name, std::move(properties), offset, out);
 }
 
 /// The legacy form `InputEvent( KEY, 65, S )` of Godot 2, as the object that took its place.
@@ -139,7 +139,7 @@ bool ValueReader::read_input_event(size_t offset, Variant& out) {
         out = ObjectRef();
         return true;
     }
-    return make_object(std::move(class_name), std::move(properties), offset, out);
+    return make_object(class_name, std::move(properties), offset, out);
 }
 
 /// `, key [, modifiers]`: the key as a number or a name, the modifiers as letters of S(hift) A(lt) C(ontrol)

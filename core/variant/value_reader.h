@@ -45,7 +45,7 @@ private:
     bool read_property(TextProperty& out);
     bool read_input_event(size_t offset, Variant& out);
     bool read_input_event_key(std::vector<TextProperty>& properties);
-    bool make_object(std::string class_name, std::vector<TextProperty> properties, size_t offset,
+    bool make_object(const std::string& class_name, std::vector<TextProperty> properties, size_t offset,
                      Variant& out);
     /// Moves a callback's value out, or fails with its error placed at `offset`.
     bool accept(Expected<Variant> made, size_t offset, Variant& out);
