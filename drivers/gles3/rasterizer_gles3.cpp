@@ -164,17 +164,13 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
     if (!skies) {
         return skies.error();
     }
-    Expected<gl::VertexArray> no_vertices = gl::VertexArray::create_empty();
-    if (!no_vertices) {
-        return no_vertices.error();
-    }
     Expected<ScenePass> scene_pass = ScenePass::create();
     if (!scene_pass) {
         return scene_pass.error();
     }
-    std::unique_ptr<Impl> impl(new Impl{std::move(context), std::move(state), *std::move(textures),
-                                        MeshStorage{}, *std::move(volumes), *std::move(skies),
-                                        TargetStorage{}, *std::move(no_vertices), *std::move(scene_pass)});
+    std::unique_ptr<Impl> impl(new Impl{
+        std::move(context), std::move(state), *std::move(textures), MeshStorage{}, *std::move(volumes),
+        *std::move(skies), TargetStorage{}, gl::VertexArray::create_empty(), *std::move(scene_pass)});
     if (Status s = impl->leave("start"); !s) {
         return s.error();
     }
