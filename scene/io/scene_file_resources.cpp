@@ -170,7 +170,7 @@ Expected<Ref<Resource>> SceneFileResources::load_known_kind(const ExtEntry& entr
 }
 
 Ref<Resource> SceneFileResources::stand_in(const std::string& type, const SourceLocation& where,
-                                           std::string reason) {
+                                           const std::string& reason) {
     diagnostics_.warn(where, reason, reason);
     return missing_resource(type);
 }

@@ -30,7 +30,7 @@ private:
     [[nodiscard]] Expected<Variant> resolve(const ResourceLink& link);
     /// A resource that keeps what it stands for; said once for each `reason`.
     [[nodiscard]] Ref<Resource> stand_in(const std::string& type, const SourceLocation& where,
-                                         std::string reason);
+                                         const std::string& reason);
 
     ResourceLoader& loader_;
     Diagnostics& diagnostics_;
