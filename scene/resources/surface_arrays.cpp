@@ -63,7 +63,7 @@ Status read_uvs(const Variant& value, size_t entry, std::vector<glm::vec2>& out)
 
 Status read_fours(const Variant& value, size_t entry, std::vector<glm::vec4>& out) {
     std::vector<float> flat;
-    if (const Status read = read_exact(value, entry, "PoolRealArray", flat); !read) {
+    if (Status read = read_exact(value, entry, "PoolRealArray", flat); !read) {
         return read;
     }
     if (flat.size() % 4 != 0) {
@@ -89,7 +89,7 @@ Status read_bones(const Variant& value, std::vector<glm::ivec4>& out) {
         return read_bones(PoolIntArray(std::move(ints)), out);
     }
     std::vector<int32_t> flat;
-    if (const Status read = read_exact(value, kEntry, "PoolIntArray", flat); !read) {
+    if (Status read = read_exact(value, kEntry, "PoolIntArray", flat); !read) {
         return read;
     }
     if (flat.size() % 4 != 0) {
@@ -103,7 +103,7 @@ Status read_bones(const Variant& value, std::vector<glm::ivec4>& out) {
 
 Status read_indices(const Variant& value, std::vector<uint32_t>& out) {
     std::vector<int32_t> signed_indices;
-    if (const Status read = read_exact(value, 8, "PoolIntArray", signed_indices); !read) {
+    if (Status read = read_exact(value, 8, "PoolIntArray", signed_indices); !read) {
         return read;
     }
     out.assign(signed_indices.begin(),
