@@ -49,10 +49,11 @@ ShadowAtlas::Slot* ShadowAtlas::find_free(int wanted, const std::vector<bool>& t
 std::vector<std::optional<gl::Rect>> ShadowAtlas::assign(std::span<const Request> requests) {
     std::vector<size_t> order(requests.size());
     std::iota(order.begin(), order.end(), size_t{0});
-    // Among equals the last one asked chooses first, as in Godot.
-    std::reverse(order.begin(), order.end());
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return requests[a].wanted > requests[b].wanted; });
+    // Among equals the last one made chooses first, as in Godot.
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+        const Request &left = requests[a], &right = requests[b];
+        return left.wanted != right.wanted ? left.wanted > right.wanted : left.light > right.light;
+    });
     std::vector<std::optional<gl::Rect>> out(requests.size());
     std::vector<bool> taken(slots_.size(), false);
     const auto give = [&](size_t request, Slot* slot) {

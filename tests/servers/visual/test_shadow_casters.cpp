@@ -134,6 +134,9 @@ TEST_SUITE("servers/visual/shadow_casters") {
             desc.cull_mode = CullMode::Disabled;
             return f.server.material_set(material, desc);
         });
+        // so that the material's is not the latest version of all when it goes
+        check("caster moved again",
+              [&] { return f.server.instance_set_transform(late, at(1.4f, 0.0f, 0.0f)); });
         check("material freed", [&] { return f.server.free(material); });
         check("caster freed", [&] { return f.server.free(late); });
         check("light moved", [&] { return f.server.instance_set_transform(f.light, at(0.0f, 0.1f, 0.0f)); });
