@@ -1,8 +1,7 @@
 // The string token: escapes and UTF-8.
 
-#include "core/variant/tokenizer.h"
-
 #include "core/utf8.h"
+#include "core/variant/tokenizer.h"
 
 #include <algorithm>
 
