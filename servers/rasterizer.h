@@ -40,6 +40,14 @@ struct GIVolumeDesc {
     int mip_count = 1;
 };
 
+/// A scenario's light as patches of surface and points of air in its probes receive it
+/// (servers/radiosity/field_map.h has the layout of the words).
+struct GIFieldDesc {
+    std::span<const uint32_t> brick_words; ///< four a brick
+    std::span<const uint32_t> joints;      ///< two a slot
+    glm::ivec3 air{0};                     ///< texels of the air's light
+};
+
 /// One surface to draw.
 struct DrawItem {
     RID mesh;
@@ -52,7 +60,8 @@ struct DrawItem {
     uint16_t omni_count = 0, spot_count = 0;
     std::array<uint16_t, 8> omnis{}, spots{}; ///< into Frame::lights
     uint16_t directional_mask = 0xFFFFu;      ///< bit i: directional light i of the frame lights this item
-    float view_depth_m = 0.0f;                ///< of the instance's origin, for sorting
+    bool is_still = false;     ///< its surface is in the GI fields; else it is lit by the air's light
+    float view_depth_m = 0.0f; ///< of the instance's origin, for sorting
 };
 
 /// One surface in a shadow map.
@@ -128,6 +137,12 @@ public:
     /// z.
     virtual Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                                     std::span<const uint8_t> rgba8) = 0;
+    /// A field, dark until it is filled. InvalidArgument if the words do not fit together.
+    virtual Expected<RID> gi_field_create(const GIFieldDesc& desc) = 0;
+    /// Replaces all light of a field. @param light  a shared-exponent RGB word (9, 9, 9, 5 bits) a slot
+    /// @param air  RGBA half floats, x fastest, then y, then z
+    virtual Status gi_field_upload(RID field, std::span<const uint32_t> light,
+                                   std::span<const uint16_t> air) = 0;
     virtual Expected<RID> target_create(glm::ivec2 size) = 0;
     /// Frees any of the above. InvalidArgument if the RID is stale.
     virtual Status free(RID rid) = 0;

@@ -124,6 +124,36 @@ Status RasterizerChecked::gi_volume_upload(RID volume, int mip, glm::ivec3 offse
     return backend_->gi_volume_upload(volume, mip, offset, size, rgba8);
 }
 
+Expected<RID> RasterizerChecked::gi_field_create(const GIFieldDesc& desc) {
+    if (glm::any(glm::lessThan(desc.air, glm::ivec3(1))) ||
+        glm::any(glm::greaterThan(desc.air, glm::ivec3(kMaxVolumeEdge)))) {
+        return wrong(fmt::format("gi_field_create: expected edges of 1 to {}, found {}", kMaxVolumeEdge,
+                                 text(desc.air)));
+    }
+    if (desc.brick_words.size() % 4 != 0 || desc.joints.size() % 2 != 0) {
+        return wrong(
+            fmt::format("gi_field_create: expected brick words in fours and joint words in pairs, found {} "
+                        "and {}",
+                        desc.brick_words.size(), desc.joints.size()));
+    }
+    const size_t points = size_t(desc.air.x) * size_t(desc.air.y) * size_t(desc.air.z);
+    return keep(backend_->gi_field_create(desc), {Kind::Field, 0, {}, desc.joints.size() / 2, points});
+}
+
+Status RasterizerChecked::gi_field_upload(RID field, std::span<const uint32_t> light,
+                                          std::span<const uint16_t> air) {
+    const Thing* thing = find(field, Kind::Field);
+    if (!thing) {
+        return wrong("gi_field_upload: expected a live GI field");
+    }
+    if (light.size() != thing->field_slots || air.size() != 4 * thing->field_points) {
+        return wrong(
+            fmt::format("gi_field_upload: expected {} light words and {} air numbers, found {} and {}",
+                        thing->field_slots, 4 * thing->field_points, light.size(), air.size()));
+    }
+    return backend_->gi_field_upload(field, light, air);
+}
+
 Expected<RID> RasterizerChecked::target_create(glm::ivec2 size) {
     if (!is_positive(size) || size.x > kMaxImageEdge || size.y > kMaxImageEdge) {
         return wrong(

@@ -23,6 +23,9 @@ public:
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;
     Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                             std::span<const uint8_t> rgba8) override;
+    Expected<RID> gi_field_create(const GIFieldDesc& desc) override;
+    Status gi_field_upload(RID field, std::span<const uint32_t> light,
+                           std::span<const uint16_t> air) override;
     Expected<RID> target_create(glm::ivec2 size) override;
     Status free(RID rid) override;
     Status draw(RID target, const Frame& frame) override;
@@ -33,12 +36,13 @@ public:
     [[nodiscard]] Rasterizer& backend() noexcept { return *backend_; }
 
 private:
-    enum class Kind : uint8_t { Texture, Mesh, Sky, Volume, Target };
+    enum class Kind : uint8_t { Texture, Mesh, Sky, Volume, Field, Target };
     /// What must be known of a living thing to check later calls.
     struct Thing {
         Kind kind;
         size_t surfaces = 0; ///< of a mesh
         GIVolumeDesc volume;
+        size_t field_slots = 0, field_points = 0; ///< of a field
     };
     Expected<RID> keep(Expected<RID> made, Thing thing);
     [[nodiscard]] const Thing* find(RID rid, Kind kind) const noexcept;

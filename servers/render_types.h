@@ -196,7 +196,8 @@ struct SkyDesc {
 
 // --- GI ------------------------------------------------------------------------------------------
 
-/// How indirect light is found. Auto: our best (until it exists it draws as Cones and says so).
+/// How indirect light is found. Cones: per pixel, as Godot 3.2 does. Auto: radiosity on the surfaces in the
+/// probes' boxes (servers/radiosity).
 enum class GIMode : uint8_t { Off, Cones, Auto };
 enum class Quality : uint8_t { Low, High };
 
@@ -210,6 +211,14 @@ struct GIProbeShading {
     float bias_cells = 1.5f;
     float normal_bias_m = 0.0f;
     bool blend_ambient = true;
+
+    // --- Auto: what surfaces and air receive; `volume` is null then ---
+    RID field;                        ///< rasterizer GI field; null until the light is known
+    Transform field_cells_from_world; ///< [m] -> [cells of the field]
+    glm::vec3 field_cells{0.0f};      ///< size of the box [cells of the field]
+    glm::ivec3 field_bricks{0};       ///< of 4 x 4 x 4 cells
+    int field_first_brick = 0;        ///< where this probe's begin
+    int field_air_z = 0;              ///< where its slabs of air begin [texels]
 };
 
 } // namespace cl

@@ -24,6 +24,15 @@ Rasterizer& VisualServer::rasterizer() {
     return *impl_->rasterizer;
 }
 
+/// Each way of finding indirect light keeps its own state, and only the one in use costs anything.
+Status VisualServer::Impl::step_gi(FieldDriver::Rest rest) {
+    return settings.gi_mode == GIMode::Auto ? fields.step(rest) : probes.step();
+}
+
+bool VisualServer::Impl::gi_is_settled() {
+    return settings.gi_mode == GIMode::Auto ? fields.is_settled() : probes.is_settled();
+}
+
 Status VisualServer::draw() {
     FirstError errors;
     bool to_window = false;
@@ -33,7 +42,7 @@ Status VisualServer::draw() {
         errors.note(impl_->draw_viewport(viewport));
         to_window = to_window || viewport.to_window;
     });
-    errors.note(impl_->probes.step());
+    errors.note(impl_->step_gi(FieldDriver::Rest::AfterSteps));
     if (to_window) {
         impl_->rasterizer->present();
     }
@@ -45,10 +54,10 @@ void VisualServer::settle() {
     constexpr int kMaxRounds = 16;
     for (int round = 0; round < kMaxRounds; ++round) {
         impl_->instances.update();
-        if (const Status stepped = impl_->probes.step(); !stepped) {
+        if (const Status stepped = impl_->step_gi(FieldDriver::Rest::AtOnce); !stepped) {
             log_error(stepped.error().message);
         }
-        if (impl_->probes.is_settled()) {
+        if (impl_->gi_is_settled()) {
             return;
         }
         impl_->worker.wait();
@@ -58,14 +67,16 @@ void VisualServer::settle() {
 
 bool VisualServer::is_settled() {
     impl_->instances.update();
-    return impl_->probes.is_settled();
+    return impl_->gi_is_settled();
 }
 
 ServerStats VisualServer::stats() const {
     ServerStats stats;
     stats.frame = impl_->frame_stats;
-    stats.relight_ms = impl_->probes.relight_ms();
-    stats.upload_ms = impl_->probes.upload_ms();
+    const bool is_auto = impl_->settings.gi_mode == GIMode::Auto;
+    stats.relight_ms = is_auto ? impl_->fields.relight_ms() : impl_->probes.relight_ms();
+    stats.upload_ms = is_auto ? impl_->fields.upload_ms() : impl_->probes.upload_ms();
+    stats.transport_ms = impl_->fields.bake_ms();
     impl_->instances.for_each([&stats](RID, const Instance& instance) {
         const bool light =
             instance.kind == InstanceKind::DirectionalLight || instance.kind == InstanceKind::LocalLight;

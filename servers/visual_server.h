@@ -34,8 +34,9 @@ struct ServerStats {
     double relight_ms = 0.0; ///< last change of light to volume ready to draw, without the wait for the next
                              ///< step: work on the cells and upload, summed over the probes that changed
     double upload_ms = 0.0;  ///< the upload's part of it
-    int lights = 0;          ///< visible ones that stand in a scenario
-    int instances = 0;       ///< of meshes that stand in a scenario
+    double transport_ms = 0.0; ///< making the light transport of GIMode::Auto
+    int lights = 0;            ///< visible ones that stand in a scenario
+    int instances = 0;         ///< of meshes that stand in a scenario
 };
 
 /// The only door from scene to renderer. RIDs are plain handles; a stale or foreign one is logged once,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/visual/field_driver.h"
 #include "servers/visual/frame_builder.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/probe_driver.h"
@@ -30,7 +31,8 @@ struct Viewport {
 struct VisualServer::Impl {
     explicit Impl(std::unique_ptr<Rasterizer> backend)
         : rasterizer(std::move(backend)), storage(*rasterizer), instances(storage, *rasterizer),
-          probes(storage, instances, *rasterizer, worker), frames(storage, instances) {}
+          probes(storage, instances, *rasterizer, worker), fields(storage, instances, *rasterizer, worker),
+          frames(storage, instances, fields) {}
 
     /// Calls f(Instance&) -> Status, or refuses the RID in the name of `call`.
     template <typename F>
@@ -43,6 +45,8 @@ struct VisualServer::Impl {
     Status check_or_null(std::string_view call, std::string_view expected, RID rid, const Owner& owner) {
         return !rid || owner.owns(rid) ? Status{} : stale.refuse(call, expected, rid);
     }
+    Status step_gi(FieldDriver::Rest rest);
+    [[nodiscard]] bool gi_is_settled();
     Status ensure_target(Viewport& viewport);
     Status draw_viewport(Viewport& viewport);
 
@@ -52,6 +56,7 @@ struct VisualServer::Impl {
     WorkerQueue worker;
     InstanceStorage instances;
     ProbeDriver probes;
+    FieldDriver fields;
     FrameBuilder frames;
     RID_Owner<Viewport> viewports{static_cast<uint32_t>(RIDKind::Viewport)};
     RenderSettings settings;

@@ -102,9 +102,6 @@ Expected<std::unique_ptr<Stage>> Stage::open(const Options& options, const scene
     const bool to_window = stage->window() != nullptr;
     stage->impl_->tree =
         std::make_unique<scene::SceneTree>(std::move(server), scene::ViewportOptions{size, to_window});
-    if (options.gi_mode == GIMode::Auto) {
-        log_debug("gi auto: drawn as cones until a better method is built in");
-    }
     return stage;
 }
 

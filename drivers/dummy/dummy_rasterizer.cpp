@@ -14,7 +14,7 @@ namespace {
 
 /// RIDs of this rasteriser start above those of any server's kinds, so that a server that mixes them up is
 /// told.
-enum class Kind : uint32_t { Texture = 129, Mesh, Sky, Volume, Target };
+enum class Kind : uint32_t { Texture = 129, Mesh, Sky, Volume, Target, Field };
 
 constexpr uint32_t first_slot(Kind kind) {
     return static_cast<uint32_t>(kind);
@@ -59,6 +59,10 @@ std::string_view to_string(CallKind kind) noexcept {
         return "gi_volume_create";
     case CallKind::VolumeUpload:
         return "gi_volume_upload";
+    case CallKind::FieldCreate:
+        return "gi_field_create";
+    case CallKind::FieldUpload:
+        return "gi_field_upload";
     case CallKind::TargetCreate:
         return "target_create";
     case CallKind::Free:
@@ -75,7 +79,8 @@ std::string_view to_string(CallKind kind) noexcept {
 
 DummyRasterizer::DummyRasterizer()
     : textures_(first_slot(Kind::Texture)), meshes_(first_slot(Kind::Mesh)), skies_(first_slot(Kind::Sky)),
-      volumes_(first_slot(Kind::Volume)), targets_(first_slot(Kind::Target)) {}
+      volumes_(first_slot(Kind::Volume)), targets_(first_slot(Kind::Target)),
+      fields_(first_slot(Kind::Field)) {}
 
 RasterizerInfo DummyRasterizer::info() const {
     return {"dummy", "no graphics", "none"};
@@ -160,6 +165,27 @@ Status DummyRasterizer::gi_volume_upload(RID rid, int mip, glm::ivec3 offset, gl
     return {};
 }
 
+Expected<RID> DummyRasterizer::gi_field_create(const GIFieldDesc& desc) {
+    if (auto failure = take_failure(CallKind::FieldCreate)) {
+        return *failure;
+    }
+    const RID rid = fields_.make({});
+    record(CallKind::FieldCreate, rid, desc.air, 0, {});
+    return rid;
+}
+
+Status DummyRasterizer::gi_field_upload(RID rid, std::span<const uint32_t> light, std::span<const uint16_t>) {
+    if (auto failure = take_failure(CallKind::FieldUpload)) {
+        return *failure;
+    }
+    if (!fields_.get(rid)) {
+        return stale("GI field");
+    }
+    record(CallKind::FieldUpload, rid, {static_cast<int>(light.size()), 1, 1}, 0,
+           {reinterpret_cast<const uint8_t*>(light.data()), light.size_bytes()});
+    return {};
+}
+
 Expected<RID> DummyRasterizer::target_create(glm::ivec2 size) {
     if (auto failure = take_failure(CallKind::TargetCreate)) {
         return *failure;
@@ -174,7 +200,7 @@ Status DummyRasterizer::free(RID rid) {
         return *failure;
     }
     if (!textures_.free(rid) && !meshes_.free(rid) && !skies_.free(rid) && !volumes_.free(rid) &&
-        !targets_.free(rid)) {
+        !targets_.free(rid) && !fields_.free(rid)) {
         return stale("RID to free");
     }
     record(CallKind::Free, rid, {}, 0, {});
@@ -253,7 +279,8 @@ size_t DummyRasterizer::count(CallKind kind) const noexcept {
 }
 
 LiveCounts DummyRasterizer::live() const noexcept {
-    return {textures_.size(), meshes_.size(), skies_.size(), volumes_.size(), targets_.size()};
+    return {textures_.size(), meshes_.size(),  skies_.size(),
+            volumes_.size(),  targets_.size(), fields_.size()};
 }
 
 std::vector<RID> DummyRasterizer::volumes() {

@@ -16,6 +16,8 @@ enum class CallKind : uint8_t {
     SkyCreate,
     VolumeCreate,
     VolumeUpload,
+    FieldCreate,
+    FieldUpload,
     TargetCreate,
     Free,
     Draw,
@@ -50,7 +52,7 @@ struct RecordedFrame {
 
 /// How many things of each kind are alive: all 0 when a server has freed all it made.
 struct LiveCounts {
-    size_t textures = 0, meshes = 0, skies = 0, volumes = 0, targets = 0;
+    size_t textures = 0, meshes = 0, skies = 0, volumes = 0, targets = 0, fields = 0;
     friend bool operator==(const LiveCounts&, const LiveCounts&) = default;
 };
 
@@ -68,6 +70,9 @@ public:
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;
     Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                             std::span<const uint8_t> rgba8) override;
+    Expected<RID> gi_field_create(const GIFieldDesc& desc) override;
+    Status gi_field_upload(RID field, std::span<const uint32_t> light,
+                           std::span<const uint16_t> air) override;
     Expected<RID> target_create(glm::ivec2 size) override;
     Status free(RID rid) override;
     Status draw(RID target, const Frame& frame) override;
@@ -105,6 +110,7 @@ private:
         GIVolumeDesc desc;
         std::vector<std::vector<uint8_t>> mips;
     };
+    struct Field {};
     struct Target {
         glm::ivec2 size{0};
         Color clear_color{0, 0, 0, 1};
@@ -122,6 +128,7 @@ private:
     RID_Owner<Sky> skies_;
     RID_Owner<Volume> volumes_;
     RID_Owner<Target> targets_;
+    RID_Owner<Field> fields_;
     std::vector<Call> calls_;
     std::optional<RecordedFrame> frame_;
     std::optional<Failure> failure_;

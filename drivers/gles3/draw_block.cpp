@@ -91,6 +91,15 @@ glm::vec4 channel_mask(TextureChannel channel) noexcept {
 shaders::GIProbe make_gi_probe(const GIProbeShading& probe, const Transform& world_from_view,
                                bool receives_baked_light) noexcept {
     shaders::GIProbe out;
+    if (probe.field && is_finite(probe.field_cells)) {
+        out.cells_from_view = (probe.field_cells_from_world * world_from_view).to_mat4();
+        out.bounds = probe.field_cells;
+        out.multiplier = probe.multiplier;
+        out.field_bricks = probe.field_bricks;
+        out.field_first_brick = probe.field_first_brick;
+        out.field_air_z = probe.field_air_z;
+        return out;
+    }
     if (!probe.volume || !is_finite(probe.bounds_cells)) {
         return out; // bounds of 0: no point lies inside
     }

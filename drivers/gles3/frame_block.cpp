@@ -132,6 +132,7 @@ FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept {
     f.shadow_filter = frame.shadow_filter;
     if (frame.gi_mode != GIMode::Off) {
         f.gi_probes = std::max(most_probes(frame.opaque), most_probes(frame.transparent));
+        f.gi_field = frame.gi_mode == GIMode::Auto;
     }
     return f;
 }

@@ -15,6 +15,7 @@ struct FrameFeatures {
     bool fog = false;
     bool directional = false, omni = false, spot = false;
     int gi_probes = 0;     ///< most that reach one surface: 0 to 2
+    bool gi_field = false; ///< their light is a GI field
     int shadow_filter = 1; ///< of Frame
 };
 /// GI probes that reach a surface: 0 to 2.

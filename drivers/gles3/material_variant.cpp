@@ -75,7 +75,9 @@ uint32_t frame_bits(const FrameFeatures& f) noexcept {
     const uint32_t lights = (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
                             (f.spot ? Scene::kSpot : 0u);
     const uint32_t filter = f.shadow_filter <= 0 ? Scene::kPcf1 : (f.shadow_filter >= 2 ? Scene::kPcf13 : 0u);
-    const uint32_t gi = f.gi_probes == 0 ? 0u : (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo);
+    const uint32_t gi = f.gi_probes == 0 ? 0u
+                                         : (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo) |
+                                               (f.gi_field ? Scene::kGiField : 0u);
     return lights | (lights != 0 ? filter : 0u) | gi | (f.sky ? Scene::kSky : 0u) |
            (f.fog ? Scene::kFog : 0u);
 }
@@ -150,7 +152,9 @@ uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeature
     if (m.unshaded) {
         return Scene::kUnshaded | scissor | (m.albedo_texture ? Scene::kAlbedoMap : 0u);
     }
-    return scissor | map_bits(m, format) | reflection_bits(m) | frame_bits(features);
+    const bool in_air = features.gi_field && features.gi_probes > 0 && !item.is_still;
+    return scissor | map_bits(m, format) | reflection_bits(m) | frame_bits(features) |
+           (in_air ? Scene::kGiAir : 0u);
 }
 
 gl::DrawState opaque_state(const DrawItem& item, Prepass prepass) noexcept {

@@ -1,6 +1,7 @@
 #include "drivers/gles3/rasterizer_gles3.h"
 
 #include "drivers/gles3/frame_block.h"
+#include "drivers/gles3/gi_field_storage.h"
 #include "drivers/gles3/gi_volume_storage.h"
 #include "drivers/gles3/gl/state.h"
 #include "drivers/gles3/mesh_storage.h"
@@ -47,6 +48,7 @@ struct RasterizerGLES3::Impl {
     TextureStorage textures;
     MeshStorage meshes;
     GIVolumeStorage volumes;
+    GIFieldStorage fields;
     SkyStorage skies;
     TargetStorage targets;
     gl::VertexArray no_vertices;
@@ -96,7 +98,7 @@ struct RasterizerGLES3::Impl {
 };
 
 Status RasterizerGLES3::Impl::draw_frame(RenderTarget& target, const Frame& frame) {
-    const Resources resources{textures, meshes, volumes, skies, no_vertices};
+    const Resources resources{textures, meshes, volumes, fields, skies, no_vertices};
     const auto local = local_shadows.draw(frame, resources, casters);
     if (!local) {
         return local.error();
@@ -160,6 +162,10 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
     if (!volumes) {
         return volumes.error();
     }
+    Expected<GIFieldStorage> fields = GIFieldStorage::create();
+    if (!fields) {
+        return fields.error();
+    }
     Expected<SkyStorage> skies = SkyStorage::create();
     if (!skies) {
         return skies.error();
@@ -168,9 +174,10 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
     if (!scene_pass) {
         return scene_pass.error();
     }
-    std::unique_ptr<Impl> impl(new Impl{
-        std::move(context), std::move(state), *std::move(textures), MeshStorage{}, *std::move(volumes),
-        *std::move(skies), TargetStorage{}, gl::VertexArray::create_empty(), *std::move(scene_pass)});
+    std::unique_ptr<Impl> impl(new Impl{std::move(context), std::move(state), *std::move(textures),
+                                        MeshStorage{}, *std::move(volumes), *std::move(fields),
+                                        *std::move(skies), TargetStorage{}, gl::VertexArray::create_empty(),
+                                        *std::move(scene_pass)});
     if (Status s = impl->leave("start"); !s) {
         return s.error();
     }
@@ -205,6 +212,15 @@ Status RasterizerGLES3::gi_volume_upload(RID volume, int mip, glm::ivec3 offset,
                           [&] { return impl_->volumes.upload(volume, mip, offset, size, rgba8); });
 }
 
+Expected<RID> RasterizerGLES3::gi_field_create(const GIFieldDesc& desc) {
+    return impl_->guarded("GI field", [&] { return impl_->fields.create(desc); });
+}
+
+Status RasterizerGLES3::gi_field_upload(RID field, std::span<const uint32_t> light,
+                                        std::span<const uint16_t> air) {
+    return impl_->guarded("GI field upload", [&] { return impl_->fields.upload(field, light, air); });
+}
+
 Expected<RID> RasterizerGLES3::target_create(glm::ivec2 size) {
     return impl_->guarded("render target", [&] { return impl_->targets.create(size); });
 }
@@ -212,7 +228,7 @@ Expected<RID> RasterizerGLES3::target_create(glm::ivec2 size) {
 Status RasterizerGLES3::free(RID rid) {
     return impl_->guarded("free", [&]() -> Status {
         const bool freed = impl_->textures.free(rid) || impl_->meshes.free(rid) || impl_->skies.free(rid) ||
-                           impl_->volumes.free(rid) || impl_->targets.free(rid);
+                           impl_->volumes.free(rid) || impl_->fields.free(rid) || impl_->targets.free(rid);
         return freed ? Status{}
                      : Error{ErrorCode::InvalidArgument, "free: expected a live RID, found a stale one"};
     });

@@ -38,6 +38,9 @@ public:
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;
     Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                             std::span<const uint8_t> rgba8) override;
+    Expected<RID> gi_field_create(const GIFieldDesc& desc) override;
+    Status gi_field_upload(RID field, std::span<const uint32_t> light,
+                           std::span<const uint16_t> air) override;
     Expected<RID> target_create(glm::ivec2 size) override;
     Status free(RID rid) override;
     Status draw(RID target, const Frame& frame) override;

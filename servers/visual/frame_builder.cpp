@@ -51,8 +51,8 @@ GIProbeShading probe_shading(const Instance& instance, const GIProbe& probe) {
 
 } // namespace
 
-FrameBuilder::FrameBuilder(Storage& storage, InstanceStorage& instances)
-    : storage_(storage), instances_(instances), casters_(storage, instances) {}
+FrameBuilder::FrameBuilder(Storage& storage, InstanceStorage& instances, const FieldDriver& fields)
+    : storage_(storage), instances_(instances), fields_(fields), casters_(storage, instances) {}
 
 const Frame& FrameBuilder::build(const View& view, const RenderSettings& settings, FirstError& errors) {
     clear(view, settings);
@@ -147,11 +147,14 @@ void FrameBuilder::add_instance(RID rid, Instance& instance, FirstError& errors)
     choose_lights(instance, item);
     choose_probes(instance, item);
     const float nearest_m = nearest_view_depth_m(frame_.camera.world_from_camera, instance.world_bounds);
+    const uint64_t look = instance.still_version != 0 ? look_of(storage_, instance) : 0;
     for (int surface = 0; surface < static_cast<int>(mesh->surfaces.size()); ++surface) {
         const MaterialStorage::Resolved material =
             surface_material(storage_, instance, *mesh, surface, errors);
         item.surface = surface;
         item.material = material.desc;
+        item.is_still =
+            instance.still_version != 0 && instance.still_version == look && is_solid(*material.desc);
         items_.push_back(item);
         keys_.push_back({nearest_m, rid, material.rid});
     }
@@ -224,7 +227,12 @@ int FrameBuilder::probe_index(RID rid) {
     }
     instance.frame = frame_number_;
     instance.frame_index = static_cast<int>(probes_.size());
-    probes_.push_back(probe_shading(instance, *probe));
+    GIProbeShading shading = probe_shading(instance, *probe);
+    if (frame_.gi_mode == GIMode::Auto) {
+        fields_.describe(rid, instance, shading);
+        shading.multiplier = probe->energy;
+    }
+    probes_.push_back(shading);
     return instance.frame_index;
 }
 

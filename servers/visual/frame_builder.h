@@ -1,6 +1,7 @@
 #pragma once
 
 #include "servers/rasterizer.h"
+#include "servers/visual/field_driver.h"
 #include "servers/visual/frustum.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/shadow_casters.h"
@@ -23,7 +24,7 @@ struct View {
 /// The result depends on what stands in the scenario, never on the layout of the trees.
 class FrameBuilder {
 public:
-    FrameBuilder(Storage& storage, InstanceStorage& instances);
+    FrameBuilder(Storage& storage, InstanceStorage& instances, const FieldDriver& fields);
 
     /// Uploads what is seen for the first time. Instances must be up to date.
     /// @return pointers and spans into the builder, good until the next build()
@@ -50,6 +51,7 @@ private:
 
     Storage& storage_;
     InstanceStorage& instances_;
+    const FieldDriver& fields_;
     ShadowCasters casters_;
     Frame frame_;
     uint64_t frame_number_ = 0;

@@ -44,7 +44,8 @@ struct Instance {
     ShadowCasting casting = ShadowCasting::On;
     bool use_in_baked_light = false;
     float extra_margin_m = 0.0f;
-    uint64_t version = 0; ///< changes when its shadow, or the shadows it casts, would
+    uint64_t version = 0;       ///< changes when its shadow, or the shadows it casts, would
+    uint64_t still_version = 0; ///< look_of() that the GI field knows; 0: it is not in it
 
     // Kept by InstanceStorage: true of the last update().
     bool queued = false;

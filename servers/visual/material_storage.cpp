@@ -5,6 +5,18 @@
 #include <algorithm>
 
 namespace cl {
+namespace {
+
+const MaterialDesc& default_material() {
+    static const MaterialDesc kDefault = [] {
+        MaterialDesc desc;
+        desc.is_default = true;
+        return desc;
+    }();
+    return kDefault;
+}
+
+} // namespace
 
 MaterialStorage::MaterialStorage(TextureStorage& textures, VersionClock& clock)
     : textures_(textures), clock_(clock), materials_(static_cast<uint32_t>(RIDKind::Material)) {}
@@ -39,18 +51,22 @@ void MaterialStorage::count_uses(const MaterialDesc& desc, int delta) {
     });
 }
 
+MaterialStorage::Described MaterialStorage::describe_first(std::span<const RID> choices) const noexcept {
+    for (RID rid : choices) {
+        if (const Material* material = materials_.get(rid)) {
+            return {&material->desc, std::max(material->version, last_freed_)};
+        }
+    }
+    return {&default_material(), last_freed_};
+}
+
 MaterialStorage::Resolved MaterialStorage::resolve_first(std::span<const RID> choices, FirstError& errors) {
-    static const MaterialDesc kDefault = [] {
-        MaterialDesc desc;
-        desc.is_default = true;
-        return desc;
-    }();
     for (RID rid : choices) {
         if (Material* material = materials_.get(rid)) {
             return {rid, &resolve(*material, errors), std::max(material->version, last_freed_)};
         }
     }
-    return {{}, &kDefault, last_freed_};
+    return {{}, &default_material(), last_freed_};
 }
 
 const MaterialDesc& MaterialStorage::resolve(Material& material, FirstError& errors) {

@@ -26,6 +26,14 @@ public:
     /// To be called when a texture was freed: materials forget what they resolved it to.
     void forget_resolved() noexcept { ++textures_epoch_; }
 
+    /// The first live material of `choices` as the scene describes it, with the server's textures, and its
+    /// version; the default where none is live. Good until the next make() or set().
+    struct Described {
+        const MaterialDesc* desc = nullptr; ///< never null
+        uint64_t version = 0;
+    };
+    [[nodiscard]] Described describe_first(std::span<const RID> choices) const noexcept;
+
     /// A material ready to draw with. Good until the next make() or set().
     struct Resolved {
         RID rid;                            ///< null: the default material

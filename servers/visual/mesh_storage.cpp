@@ -15,7 +15,7 @@ RID MeshStorage::make(std::vector<MeshSurface> surfaces) {
         mesh.bounds = mesh.surfaces.empty() ? surface.aabb : mesh.bounds.merged(surface.aabb);
         mesh.surfaces.push_back({surface.aabb, {}});
     }
-    mesh.vertices = std::move(surfaces);
+    mesh.vertices = std::make_shared<const std::vector<MeshSurface>>(std::move(surfaces));
     mesh.version = clock_.tick();
     return meshes_.make(std::move(mesh));
 }
@@ -38,11 +38,11 @@ void MeshStorage::set_material(RID rid, int surface, RID material) {
 
 RID MeshStorage::uploaded(RID rid, FirstError& errors) {
     Mesh* mesh = meshes_.get(rid);
-    if (!mesh || mesh->upload || mesh->vertices.empty()) {
+    if (!mesh || mesh->tried || mesh->vertices->empty()) {
         return mesh ? mesh->upload : RID{};
     }
-    Expected<RID> created = rasterizer_.mesh_create(mesh->vertices);
-    mesh->vertices = {}; // uploaded, or refused once and for all
+    mesh->tried = true;
+    Expected<RID> created = rasterizer_.mesh_create(*mesh->vertices);
     if (!created) {
         errors.note(created.error());
         return {};

@@ -8,6 +8,7 @@
 #include "core/rid.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cl {
@@ -19,13 +20,15 @@ struct Mesh {
         RID material; ///< null: none of its own
     };
     std::vector<Surface> surfaces;
-    AABB bounds;                       ///< of all surfaces
-    std::vector<MeshSurface> vertices; ///< until uploaded
-    RID upload;                        ///< the rasteriser's mesh
-    uint64_t version = 0;              ///< of its surface materials
+    AABB bounds; ///< of all surfaces
+    /// Kept after the upload: light transport reads it on other threads.
+    std::shared_ptr<const std::vector<MeshSurface>> vertices;
+    bool tried = false;   ///< uploaded, or refused once and for all
+    RID upload;           ///< the rasteriser's mesh
+    uint64_t version = 0; ///< of its surface materials
 };
 
-/// Meshes: vertices in memory until first drawn, in the rasteriser from then on.
+/// Meshes: in the rasteriser from when they are first drawn.
 class MeshStorage {
 public:
     MeshStorage(Rasterizer& rasterizer, VersionClock& clock);

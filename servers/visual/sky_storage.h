@@ -5,7 +5,11 @@
 
 #include "core/rid.h"
 
+#include <glm/vec3.hpp>
+
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace cl {
 
@@ -20,11 +24,14 @@ public:
     [[nodiscard]] size_t size() const noexcept { return skies_.size(); }
     /// The rasteriser's sky, prepared now if need be; null if `sky` is not one or cannot be prepared.
     RID uploaded(RID sky, FirstError& errors);
+    /// Mean radiance of each of radiosity's sky bins, in the sky's own space; empty if `sky` is not one.
+    [[nodiscard]] std::span<const glm::vec3> bins(RID sky) const noexcept;
 
 private:
     struct Sky {
         std::optional<SkyDesc> desc; ///< until uploaded
         RID upload;
+        std::vector<glm::vec3> bins;
     };
     Rasterizer& rasterizer_;
     RID_Owner<Sky> skies_;

@@ -50,6 +50,11 @@ bool TextureStorage::holds_image(RID rid) const noexcept {
     return texture && texture->image;
 }
 
+std::shared_ptr<const Image> TextureStorage::image(RID rid) const noexcept {
+    const Texture* texture = textures_.get(rid);
+    return !texture ? nullptr : (texture->image ? texture->image : texture->shared_image.lock());
+}
+
 void TextureStorage::count_use(RID rid, TextureColorSpace space, int delta) noexcept {
     if (Texture* texture = textures_.get(rid)) {
         texture->uses[index_of(space)] += delta;

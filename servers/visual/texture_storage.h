@@ -44,6 +44,9 @@ public:
     /// True while the server itself holds the pixels.
     [[nodiscard]] bool holds_image(RID texture) const noexcept;
 
+    /// The pixels, while the server or anybody else still holds them; else null.
+    [[nodiscard]] std::shared_ptr<const Image> image(RID texture) const noexcept;
+
     /// A living material samples `texture` in `space` (delta +1), or no longer does (-1). Any RID will do.
     void count_use(RID texture, TextureColorSpace space, int delta) noexcept;
     /// The rasteriser's texture, uploaded now if need be; null if `texture` is not one or cannot be uploaded.

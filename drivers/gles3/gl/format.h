@@ -25,12 +25,15 @@ enum class Format : uint8_t {
     RGB32F,
     RGBA32F,
     R32UI,
+    RG32UI,
+    RGBA32UI,
+    RGB9E5,
     Depth16,
     Depth24,
     Depth32F,
     Depth24Stencil8,
 };
-inline constexpr int kFormatCount = 20;
+inline constexpr int kFormatCount = 23;
 
 enum class FormatClass : uint8_t { Normalized, Float, Integer, Depth, DepthStencil };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "drivers/gles3/gi_field_storage.h"
 #include "drivers/gles3/gi_volume_storage.h"
 #include "drivers/gles3/gl/vertex_array.h"
 #include "drivers/gles3/mesh_storage.h"
@@ -13,6 +14,7 @@ struct Resources {
     const TextureStorage& textures;
     const MeshStorage& meshes;
     const GIVolumeStorage& volumes;
+    const GIFieldStorage& fields;
     const SkyStorage& skies;
     const gl::VertexArray& no_vertices; ///< for fullscreen draws
 };

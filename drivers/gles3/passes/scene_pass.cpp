@@ -30,6 +30,16 @@ const gl::Texture3D& volume_of(const DrawItem& item, size_t slot, const ScenePas
     return volume ? *volume : inputs.resources.volumes.empty();
 }
 
+/// The frame's GI field: all its probes share one.
+const StoredField& field_of(const ScenePass::Inputs& inputs) {
+    for (const GIProbeShading& probe : inputs.frame.gi_probes) {
+        if (const StoredField* field = inputs.resources.fields.get(probe.field)) {
+            return *field;
+        }
+    }
+    return inputs.resources.fields.empty();
+}
+
 } // namespace
 
 Expected<ScenePass> ScenePass::create() {
@@ -51,6 +61,11 @@ void ScenePass::bind_frame_inputs(const Inputs& inputs) const {
     Program::bind(S::directional_shadow, inputs.directional_shadow ? *inputs.directional_shadow : no_shadow_);
     Program::bind(S::sky_irradiance_map, sky.irradiance);
     Program::bind(S::sky_radiance_map, sky.radiance);
+    const StoredField& field = field_of(inputs);
+    Program::bind(S::field_bricks, field.bricks);
+    Program::bind(S::field_joints, field.joints);
+    Program::bind(S::field_light, field.light);
+    Program::bind(S::field_air, field.air);
 }
 
 Status ScenePass::draw_surface(gl::Pass& pass, const SceneDraw& draw, const Inputs& inputs, uint32_t variant,

@@ -10,6 +10,9 @@ struct GIProbe {
     float normal_bias;     // [m]
     float reach;           // the box's diagonal [cells]
     int blend_ambient;     // ambient light enters where cones leave
+    ivec3 field_bricks;    // of a GI field: lib/gi_field.glsl
+    int field_first_brick;
+    int field_air_z;
 };
 
 layout(std140) uniform Draw {

@@ -1,0 +1,118 @@
+// shaders/lib/gi_field.glsl -- light that patches of surface, or the air, receive from everywhere; library, no main()
+// space    view space [m]; look-ups in the field's cells
+// needs    lib/draw_block.glsl
+// layout   servers/radiosity/field_map.h; light is radiance averaged over the cosine-weighted hemisphere
+#ifdef GI_FIELD
+uniform highp usampler2D field_bricks;
+uniform highp usampler2D field_joints;
+uniform sampler2D field_light;
+uniform sampler3D field_air;
+
+const int kFieldRow = 1024; // drivers/gles3/gi_field_storage.h
+const float kFieldFade = 4.0; // cells over which a field fades to plain ambient light at its box
+
+ivec2 field_texel(int entry) {
+    return ivec2(entry & (kFieldRow - 1), entry >> 10);
+}
+
+/// How many bits are set. Source: Warren, "Hacker's Delight", section 5-1 (GLSL ES 3.00 has no bitCount).
+uint field_bit_count(uint v) {
+    v -= (v >> 1) & 0x55555555u;
+    v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
+    return (((v + (v >> 4)) & 0x0F0F0F0Fu) * 0x01010101u) >> 24;
+}
+
+/// Number of a cell with patches of a facing; -1 if it has none.
+int field_cell(GIProbe probe, int facing, ivec3 cell) {
+    ivec3 b = cell >> 2;
+    ivec3 c = cell & 3;
+    ivec3 n = probe.field_bricks;
+    bool inside = all(greaterThanEqual(b, ivec3(0))) && all(lessThan(b, n));
+    int brick = probe.field_first_brick + ((facing * n.z + b.z) * n.y + b.y) * n.x + b.x;
+    uvec4 words = texelFetch(field_bricks, field_texel(inside ? brick : 0), 0);
+    int bit = c.x | (c.y << 2) | (c.z << 4);
+    uint word = bit < 32 ? words.x : words.y;
+    uint mask = 1u << uint(bit & 31);
+    uint before = (bit < 32 ? 0u : words.w) + field_bit_count(word & (mask - 1u));
+    return inside && (word & mask) != 0u ? int(words.z + before) : -1;
+}
+
+/// Where a patch lies in its cell, 0..1.
+vec3 field_place(uvec2 joint) {
+    uint bits = (joint.x >> 27) | (((joint.y >> 27) & 15u) << 5);
+    return (vec3(uvec3(bits, bits >> 3, bits >> 6) & 7u) + 0.5) / 8.0;
+}
+
+/// Light of the surface around a point of it: patches of the 8 nearest cells, of those that go on from the point's
+/// own. a: 1, or 0 where the field has no patch.
+vec4 surface_light(GIProbe probe, vec3 at, vec3 normal) {
+    vec3 size = abs(normal);
+    int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    float side = axis == 0 ? normal.x : (axis == 1 ? normal.y : normal.z);
+    int facing = axis * 2 + (side < 0.0 ? 1 : 0);
+    vec3 behind = at - 0.002 * normal; // a face on the border of two cells belongs to the one behind it
+    ivec3 home = ivec3(floor(behind));
+    int home_cell = field_cell(probe, facing, home);
+    int home_slot = max(home_cell, 0) * 2;
+    uvec2 joint = texelFetch(field_joints, field_texel(home_slot), 0).xy;
+    uvec2 other = texelFetch(field_joints, field_texel(home_slot + 1), 0).xy;
+    vec3 within = behind - vec3(home);
+    bool second = (joint.y >> 31) != 0u && distance(within, field_place(other)) < distance(within, field_place(joint));
+    joint = second ? other : joint;
+    // Without a patch of its own a point takes what is around it.
+    uint goes_on = home_cell >= 0 ? joint.x : 0xFFFFFFFFu;
+    uint slots = home_cell >= 0 ? (joint.y | (second ? 1u << 13 : 0u)) : 0u;
+    vec3 corner = floor(behind - 0.5);
+    vec3 f = behind - 0.5 - corner;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 8; ++i) {
+        ivec3 step = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        ivec3 cell = ivec3(corner) + step;
+        ivec3 from_home = cell - home + 1;
+        uint bit = 1u << uint(from_home.x + 3 * from_home.y + 9 * from_home.z);
+        int number = field_cell(probe, facing, cell);
+        int slot = max(number, 0) * 2 + ((slots & bit) != 0u ? 1 : 0);
+        vec3 light = texelFetch(field_light, field_texel(slot), 0).rgb;
+        vec3 w = mix(1.0 - f, f, vec3(step));
+        float weight = number >= 0 && (goes_on & bit) != 0u ? w.x * w.y * w.z : 0.0;
+        sum += vec4(light, 1.0) * weight;
+    }
+    return sum.a > 1e-4 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
+}
+
+/// One slab of the air's light.
+vec3 air_slab(GIProbe probe, vec3 at, int slab) {
+    vec3 size = vec3(textureSize(field_air, 0));
+    vec3 dims = vec3(probe.field_bricks);
+    vec3 texel = clamp(at * 0.25, vec3(0.5), dims - 0.5); // no filtering across the border of a slab
+    texel.z += float(probe.field_air_z) + float(slab) * dims.z;
+    return textureLod(field_air, texel / size, 0.0).rgb;
+}
+
+/// Light that a surface turned to `normal` (world space) would receive in the air.
+vec3 air_light(GIProbe probe, vec3 at, vec3 normal) {
+    vec3 light = air_slab(probe, at, 0);
+    light += 2.0 * normal.x * air_slab(probe, at, 1);
+    light += 2.0 * normal.y * air_slab(probe, at, 2);
+    light += 2.0 * normal.z * air_slab(probe, at, 3);
+    return max(light, vec3(0.0));
+}
+
+/// 1 inside a probe's box, falling to 0 at its faces.
+float field_share(GIProbe probe, vec3 at) {
+    vec3 margin = min(at, probe.bounds - at);
+    return clamp(min(margin.x, min(margin.y, margin.z)) / kFieldFade, 0.0, 1.0);
+}
+
+/// Adds a probe's light where those before it leave room. sum.a: room taken.
+void add_gi_field(GIProbe probe, vec3 position, vec3 normal, inout vec4 sum) {
+    vec3 at = (probe.cells_from_view * vec4(position, 1.0)).xyz;
+#ifdef GI_AIR
+    vec4 light = vec4(air_light(probe, at, mat3(frame_world_from_view) * normal), 1.0);
+#else
+    vec4 light = surface_light(probe, at, normalize(mat3(probe.cells_from_view) * normal));
+#endif
+    float share = field_share(probe, at) * light.a * (1.0 - sum.a);
+    sum += vec4(light.rgb * probe.multiplier, 1.0) * share;
+}
+#endif

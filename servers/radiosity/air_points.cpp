@@ -1,0 +1,119 @@
+#include "servers/radiosity/air_points.h"
+
+#include "servers/radiosity/sampling.h"
+#include "servers/radiosity/sky_bins.h"
+
+#include "core/threads.h"
+
+#include <deque>
+
+namespace cl::radiosity {
+namespace {
+
+constexpr uint32_t kRays = 64;
+constexpr uint32_t kNoPoint = 0xFFFFFFFFu;
+constexpr int kSubpoints = 5;
+
+/// A point's fan, with a direction for each link; no rays if the point lies inside a solid.
+struct AirFan {
+    RayFan fan;
+    std::vector<glm::vec3> patch_directions, sky_directions;
+};
+
+AirFan gather_from(const StillScene& scene, const RayScene& rays, const Patches& patches, const glm::vec3& at,
+                   glm::vec2 start) {
+    AirFan out;
+    for (uint32_t i = 0; i < kRays; ++i) {
+        const glm::vec3 direction = sphere_direction(r2_point(i, start));
+        const Ray ray{at, direction};
+        const size_t patches_before = out.fan.patches.size(), skies_before = out.fan.skies.size();
+        add_rays(scene, rays, patches, std::span(&ray, 1), out.fan);
+        if (out.fan.patches.size() > patches_before) {
+            out.patch_directions.push_back(direction);
+        }
+        if (out.fan.skies.size() > skies_before) {
+            out.sky_directions.push_back(direction);
+        }
+    }
+    // A quarter of the rays on the backs of surfaces: inside a solid, or behind a wall that has no back.
+    if (out.fan.back_count * 4 > kRays) {
+        out = {};
+    }
+    return out;
+}
+
+/// A point may lie in a solid and its brick not: other places of the brick are tried.
+AirFan gather_near(const StillScene& scene, const RayScene& rays, const Patches& patches,
+                   const CellGrid& grid, const glm::vec3& centre_cells, uint64_t key) {
+    static constexpr glm::vec3 kOffsets[kSubpoints] = {
+        {0, 0, 0}, {1.2f, 1.2f, 1.2f}, {-1.2f, 1.2f, -1.2f}, {1.2f, -1.2f, -1.2f}, {-1.2f, -1.2f, 1.2f}};
+    for (const glm::vec3& offset : kOffsets) {
+        AirFan fan = gather_from(scene, rays, patches, grid.world_from_cells.xform(centre_cells + offset),
+                                 hashed_start(key));
+        if (fan.fan.ray_count > 0) {
+            return fan;
+        }
+    }
+    return {};
+}
+
+/// Each point in a solid shows the nearest one that is not, so that filtering finds light on every side.
+std::vector<uint32_t> spread(const Links& links, const glm::ivec3& dims) {
+    std::vector<uint32_t> stand_in(links.points.size(), kNoPoint);
+    std::deque<uint32_t> queue;
+    for (uint32_t i = 0; i < stand_in.size(); ++i) {
+        if (links.points[i].ray_count > 0) {
+            stand_in[i] = i;
+            queue.push_back(i);
+        }
+    }
+    while (!queue.empty()) {
+        const int at = int(queue.front());
+        queue.pop_front();
+        const glm::ivec3 c(at % dims.x, at / dims.x % dims.y, at / (dims.x * dims.y));
+        for (int side = 0; side < 6; ++side) {
+            glm::ivec3 next = c;
+            next[side / 2] += side % 2 * 2 - 1;
+            if (next[side / 2] < 0 || next[side / 2] >= dims[side / 2]) {
+                continue;
+            }
+            const uint32_t n = uint32_t((next.z * dims.y + next.y) * dims.x + next.x);
+            if (stand_in[n] == kNoPoint) {
+                stand_in[n] = stand_in[size_t(at)];
+                queue.push_back(n);
+            }
+        }
+    }
+    for (uint32_t i = 0; i < stand_in.size(); ++i) {
+        stand_in[i] = stand_in[i] == kNoPoint ? i : stand_in[i];
+    }
+    return stand_in;
+}
+
+} // namespace
+
+AirPoints make_air_points(const StillScene& scene, const RayScene& rays, const Patches& patches,
+                          const CellGrid& grid) {
+    AirPoints air;
+    air.dims = grid.bricks();
+    std::vector<AirFan> fans(size_t(air.dims.x) * size_t(air.dims.y) * size_t(air.dims.z));
+    parallel_for(fans.size(), 64, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const int n = int(i);
+            const glm::ivec3 brick(n % air.dims.x, n / air.dims.x % air.dims.y,
+                                   n / (air.dims.x * air.dims.y));
+            fans[i] = gather_near(scene, rays, patches, grid, glm::vec3(brick * 4 + 2), i);
+        }
+    });
+    for (const AirFan& f : fans) {
+        append_point(air.links, f.fan);
+        air.targets_direction.insert(air.targets_direction.end(), f.patch_directions.begin(),
+                                     f.patch_directions.end());
+        air.targets_direction.insert(air.targets_direction.end(), f.sky_directions.begin(),
+                                     f.sky_directions.end());
+    }
+    air.stand_in = spread(air.links, air.dims);
+    return air;
+}
+
+} // namespace cl::radiosity

@@ -1,0 +1,187 @@
+#include "servers/radiosity/field_map.h"
+
+#include "core/threads.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cl::radiosity {
+namespace {
+
+// Facings overlap, so that a pixel whose normal differs a little from its patch's still finds it.
+constexpr float kLeastFacing = 0.35f;
+constexpr float kGoesOnFacing = 0.5f; ///< cosine between surfaces that are taken for one
+constexpr float kMaxRadiance = 65408.0f;
+
+glm::vec3 facing_axis(const CellGrid& grid, int facing) noexcept {
+    const glm::vec3 axis = glm::normalize(grid.world_from_cells.basis[facing / 2]);
+    return facing % 2 == 0 ? axis : -axis;
+}
+
+/// Cells with patches that face about one way, at most kSlots each: the largest.
+struct FacingCells {
+    std::vector<uint64_t> orders;
+    std::vector<std::array<uint32_t, FieldMap::kSlots>> slots;
+};
+
+FacingCells cells_facing(const Patches& patches, size_t grid_index, int facing) {
+    const CellGrid& grid = patches.grids[grid_index].cells;
+    const std::vector<uint32_t>& first = patches.grids[grid_index].first;
+    const glm::vec3 axis = facing_axis(grid, facing);
+    FacingCells out;
+    for (size_t cell = 0; cell + 1 < first.size(); ++cell) {
+        std::array<uint32_t, FieldMap::kSlots> slots{kNoPatch, kNoPatch};
+        for (uint32_t p = first[cell]; p < first[cell + 1]; ++p) {
+            if (glm::dot(patches.normal[p], axis) < kLeastFacing) {
+                continue;
+            }
+            const auto area = [&](uint32_t patch) {
+                return patch == kNoPatch ? -1.0f : patches.area_m2[patch];
+            };
+            if (area(p) > area(slots[0])) {
+                slots = {p, slots[0]};
+            } else if (area(p) > area(slots[1])) {
+                slots[1] = p;
+            }
+        }
+        if (slots[0] != kNoPatch) {
+            out.orders.push_back(patches.order[slots[0]]);
+            out.slots.push_back(slots);
+        }
+    }
+    return out;
+}
+
+class Joiner {
+public:
+    Joiner(const Transport& t, size_t grid_index)
+        : t_(t), patches_(t.patches), grid_(t.patches.grids[grid_index].cells) {}
+
+    /// True if the surface of patch `a` goes on in patch `b`, a neighbour.
+    [[nodiscard]] bool goes_on(uint32_t a, uint32_t b) const noexcept {
+        const glm::vec3 na = patches_.normal[a], nb = patches_.normal[b];
+        const glm::vec3 apart = patches_.position[b] - patches_.position[a];
+        const float rise = std::abs(glm::dot(na + nb, apart)) * 0.5f / grid_.cell_m;
+        if (glm::dot(na, nb) < kGoesOnFacing || rise > 1.0f) {
+            return false;
+        }
+        const float lift_m = 2.0f * kLift * grid_.cell_m + 0.12f * glm::length(apart);
+        return !t_.rays.is_blocked(patches_.position[a] + lift_m * na, patches_.position[b] + lift_m * nb);
+    }
+
+    /// The two words of a slot. @param find  slots of a cell and facing, or nullptr
+    template <typename Find>
+    [[nodiscard]] std::array<uint32_t, 2> joint(uint32_t patch, bool has_second, const Find& find) const {
+        std::array<uint32_t, 2> words{1u << 13, 0u};
+        const glm::ivec3 cell = grid_.cell_at(patches_.order[patch]);
+        for (int i = 0; i < 27; ++i) {
+            const auto* slots = i == 13 ? nullptr : find(cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+            if (slots && (*slots)[0] != kNoPatch && goes_on(patch, (*slots)[0])) {
+                words[0] |= 1u << i;
+            } else if (slots && (*slots)[1] != kNoPatch && goes_on(patch, (*slots)[1])) {
+                words[0] |= 1u << i;
+                words[1] |= 1u << i;
+            }
+        }
+        const glm::vec3 within = grid_.cells_from_world.xform(patches_.position[patch]) - glm::vec3(cell);
+        const glm::uvec3 place(glm::clamp(within * 8.0f, 0.0f, 7.0f));
+        const uint32_t bits = place.x | place.y << 3 | place.z << 6;
+        words[0] |= (bits & 31u) << 27;
+        words[1] |= (bits >> 5) << 27 | (has_second ? 1u << 31 : 0u);
+        return words;
+    }
+
+private:
+    const Transport& t_;
+    const Patches& patches_;
+    const CellGrid& grid_;
+};
+
+void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) {
+    const CellGrid& grid = t.patches.grids[probe].cells;
+    const FacingCells cells = cells_facing(t.patches, probe, facing);
+    const CellIndex index(grid, cells.orders);
+    const uint32_t first_cell = uint32_t(map.patches.size()) / FieldMap::kSlots;
+    for (const CellIndex::Brick& b : index.bricks()) {
+        map.brick_words.insert(map.brick_words.end(), {b.low, b.high, first_cell + b.first, b.low_count});
+    }
+    const auto find = [&](const glm::ivec3& cell) {
+        const uint32_t number = index.find(cell);
+        return number == CellIndex::kNone ? nullptr : &cells.slots[number];
+    };
+    const Joiner joiner(t, probe);
+    const size_t joints_at = map.joints.size();
+    map.joints.resize(joints_at + cells.slots.size() * FieldMap::kSlots * 2);
+    parallel_for(cells.slots.size(), 256, [&](size_t begin, size_t end) {
+        for (size_t c = begin; c < end; ++c) {
+            for (size_t s = 0; s < FieldMap::kSlots; ++s) {
+                if (cells.slots[c][s] != kNoPatch) {
+                    const auto words = joiner.joint(cells.slots[c][s], cells.slots[c][1] != kNoPatch, find);
+                    std::copy(words.begin(), words.end(),
+                              map.joints.begin() +
+                                  std::ptrdiff_t(joints_at + (c * FieldMap::kSlots + s) * 2));
+                }
+            }
+        }
+    });
+    for (const auto& slots : cells.slots) {
+        map.patches.insert(map.patches.end(), slots.begin(), slots.end());
+    }
+}
+
+} // namespace
+
+FieldMap make_field_map(const Transport& transport) {
+    FieldMap map;
+    map.air = glm::ivec3(1, 1, 0);
+    for (size_t probe = 0; probe < transport.probe_count; ++probe) {
+        const glm::ivec3 bricks = transport.patches.grids[probe].cells.bricks();
+        map.probes.push_back({bricks, uint32_t(map.brick_words.size() / 4), map.air.z});
+        map.air = glm::ivec3(glm::max(glm::ivec2(map.air), glm::ivec2(bricks)), map.air.z + 4 * bricks.z);
+        for (int facing = 0; facing < FieldMap::kFacings; ++facing) {
+            append_facing(transport, probe, facing, map);
+        }
+    }
+    return map;
+}
+
+std::vector<uint32_t> encode_field(const FieldMap& map, const Solution& solution) {
+    std::vector<uint32_t> out(map.patches.size(), 0u);
+    parallel_for(out.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            if (map.patches[i] != kNoPatch) {
+                out[i] =
+                    glm::packF3x9_E1x5(glm::clamp(solution.arriving[map.patches[i]], 0.0f, kMaxRadiance));
+            }
+        }
+    });
+    return out;
+}
+
+std::vector<uint16_t> encode_air(const FieldMap& map, const Solution& solution) {
+    std::vector<uint16_t> out(size_t(map.air.x) * size_t(map.air.y) * size_t(map.air.z) * 4);
+    for (size_t p = 0; p < map.probes.size(); ++p) {
+        const glm::ivec3 dims = map.probes[p].bricks;
+        for (size_t i = 0; i < solution.air[p].size(); ++i) {
+            const int n = int(i), x = n % dims.x, y = n / dims.x % dims.y, z = n / (dims.x * dims.y);
+            const Solution::Air& air = solution.air[p][i];
+            for (int slab = 0; slab < 4; ++slab) {
+                const int at_z = map.probes[p].air_z + slab * dims.z + z;
+                const size_t texel =
+                    (size_t(at_z) * size_t(map.air.y) + size_t(y)) * size_t(map.air.x) + size_t(x);
+                const glm::vec3 v = slab == 0 ? air.mean : air.slope[size_t(slab - 1)];
+                for (int channel = 0; channel < 3; ++channel) {
+                    out[texel * 4 + size_t(channel)] =
+                        glm::packHalf1x16(glm::clamp(v[channel], -kMaxRadiance, kMaxRadiance));
+                }
+            }
+        }
+    }
+    return out;
+}
+
+} // namespace cl::radiosity

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "servers/radiosity/cell_index.h"
+#include "servers/radiosity/ray_scene.h"
+#include "servers/radiosity/still_scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace cl::radiosity {
+
+inline constexpr uint32_t kNoPatch = 0xFFFFFFFFu;
+
+/// The surfaces of a still scene in pieces of at most a cell: the elements of the radiosity method. One patch
+/// is what lies in one cell, faces one way and is one space with itself: a wall thinner than a cell has a
+/// patch on either side, and a floor that it stands on has two in that cell.
+struct Patches {
+    struct Grid {
+        CellGrid cells;
+        CellIndex index;
+        std::vector<uint32_t> first; ///< first patch of each occupied cell, and one past the last
+    };
+    std::vector<Grid> grids; ///< finest first
+
+    std::vector<glm::vec3> position;         ///< a point of the surface that sees the space before it [m]
+    std::vector<glm::vec3> normal;           ///< unit length
+    std::vector<glm::vec3> albedo, emission; ///< linear, mean over the patch
+    std::vector<float> area_m2;
+    std::vector<uint8_t> grid;   ///< its grid
+    std::vector<uint64_t> order; ///< its cell's CellGrid::order()
+
+    [[nodiscard]] size_t size() const noexcept { return position.size(); }
+    /// The patch that a point of a surface belongs to; kNoPatch if there is none.
+    /// @param normal  the surface's, on the side that is meant
+    [[nodiscard]] uint32_t find(const glm::vec3& point, const glm::vec3& normal) const noexcept;
+};
+
+/// Cuts a scene into patches. A surface inside a solid (rays from it meet back sides) gets none.
+/// @param grids  the probes' (`probe_count` of them, each cut in full), then outer ones that hold only what
+/// no grid
+///               before them does. Points outside all get no patch.
+[[nodiscard]] Patches make_patches(const StillScene& scene, const RayScene& rays, std::vector<CellGrid> grids,
+                                   size_t probe_count);
+
+/// How far a cell's own point stands in front of its surface when rays start there [cells].
+inline constexpr float kLift = 0.02f;
+
+} // namespace cl::radiosity

@@ -1,0 +1,322 @@
+#include "servers/radiosity/records.h"
+
+#include "servers/radiosity/sampling.h"
+
+#include "core/threads.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace cl::radiosity {
+namespace {
+
+constexpr int kTopLevel = 2;                // blocks of 4 cells an edge at most
+constexpr float kSpacingPerDistance = 0.3f; // a record serves this part of the distance to what is around it
+constexpr uint32_t kProbeRays = 32;
+constexpr uint32_t kRays[kTopLevel + 1] = {128, 192, 256};
+
+/// Interleaves bits: neighbours in a block of 2^k cells differ in the low 3 k bits.
+uint64_t morton(const glm::ivec3& cell) noexcept {
+    uint64_t code = 0;
+    for (int bit = 0; bit < 10; ++bit) {
+        code |= uint64_t((cell.x >> bit) & 1) << (3 * bit) | uint64_t((cell.y >> bit) & 1) << (3 * bit + 1) |
+                uint64_t((cell.z >> bit) & 1) << (3 * bit + 2);
+    }
+    return code;
+}
+
+/// A patch with the name of its cell, so that blocks of cells are runs.
+struct Placed {
+    uint64_t code; ///< grid, then Morton code
+    uint32_t patch;
+};
+
+std::vector<Placed> in_morton_order(const Patches& patches) {
+    std::vector<Placed> out(patches.size());
+    for (uint32_t p = 0; p < out.size(); ++p) {
+        const Patches::Grid& grid = patches.grids[patches.grid[p]];
+        out[p] = {uint64_t(patches.grid[p]) << 32 | morton(grid.cells.cell_at(patches.order[p])), p};
+    }
+    std::sort(out.begin(), out.end(), [](const Placed& a, const Placed& b) {
+        return a.code != b.code ? a.code < b.code : a.patch < b.patch;
+    });
+    return out;
+}
+
+uint64_t block_of(uint64_t code, int level) noexcept {
+    return code >> (3 * level);
+}
+
+/// A record that is to be, with the rays traced so far.
+struct Draft {
+    uint32_t patch = 0;
+    int level = 0;
+    RayFan fan;
+};
+
+class Placer {
+public:
+    Placer(const StillScene& scene, const RayScene& rays, const Patches& patches)
+        : scene_(scene), rays_(rays), patches_(patches) {}
+
+    /// Places the records of a run of patches that share a block of `level`.
+    void place(std::span<const Placed> run, int level, std::vector<Draft>& out) const {
+        for (const std::vector<Placed>& group : facing_groups(run)) {
+            Draft draft{central_patch(group), level, {}};
+            trace(draft, 0, kProbeRays);
+            const float spacing_m = cell_m(draft.patch) * float(1 << level);
+            if (level == 0 || spacing_m <= kSpacingPerDistance * draft.fan.mean_distance_m()) {
+                trace(draft, kProbeRays, kRays[level]);
+                out.push_back(std::move(draft));
+            } else {
+                place_parts(group, level - 1, out);
+            }
+        }
+    }
+    /// A record at a patch that no other record serves.
+    Draft single(uint32_t patch) const {
+        Draft draft{patch, 0, {}};
+        trace(draft, 0, kRays[0]);
+        return draft;
+    }
+
+private:
+    [[nodiscard]] float cell_m(uint32_t patch) const noexcept {
+        return patches_.grids[patches_.grid[patch]].cells.cell_m;
+    }
+
+    void place_parts(std::span<const Placed> group, int level, std::vector<Draft>& out) const {
+        for (size_t begin = 0; begin < group.size();) {
+            size_t end = begin;
+            while (end < group.size() &&
+                   block_of(group[end].code, level) == block_of(group[begin].code, level)) {
+                ++end;
+            }
+            place(group.subspan(begin, end - begin), level, out);
+            begin = end;
+        }
+    }
+
+    /// Patches of a run that face about the same way.
+    [[nodiscard]] std::vector<std::vector<Placed>> facing_groups(std::span<const Placed> run) const {
+        std::vector<std::vector<Placed>> groups;
+        for (const Placed& p : run) {
+            const auto fits = [&](const std::vector<Placed>& g) {
+                return glm::dot(patches_.normal[g[0].patch], patches_.normal[p.patch]) > 0.85f;
+            };
+            const auto home = std::find_if(groups.begin(), groups.end(), fits);
+            (home == groups.end() ? groups.emplace_back() : *home).push_back(p);
+        }
+        return groups;
+    }
+
+    [[nodiscard]] uint32_t central_patch(std::span<const Placed> group) const noexcept {
+        glm::vec3 middle(0.0f);
+        for (const Placed& p : group) {
+            middle += patches_.position[p.patch] / float(group.size());
+        }
+        const auto nearer = [&](const Placed& a, const Placed& b) {
+            return glm::distance(patches_.position[a.patch], middle) <
+                   glm::distance(patches_.position[b.patch], middle);
+        };
+        return std::min_element(group.begin(), group.end(), nearer)->patch;
+    }
+
+    void trace(Draft& draft, uint32_t from, uint32_t to) const {
+        const glm::vec3 normal = patches_.normal[draft.patch];
+        const glm::vec3 origin = patches_.position[draft.patch] + kLift * cell_m(draft.patch) * normal;
+        const CosineFrame frame(normal);
+        const glm::vec2 start =
+            hashed_start(patches_.order[draft.patch] * 8 + uint64_t(patches_.grid[draft.patch]));
+        std::vector<Ray> asked;
+        for (uint32_t i = from; i < to; ++i) {
+            asked.push_back({origin, frame.direction(r2_point(i, start))});
+        }
+        add_rays(scene_, rays_, patches_, asked, draft.fan);
+    }
+
+    const StillScene& scene_;
+    const RayScene& rays_;
+    const Patches& patches_;
+};
+
+/// Runs of patches that share a block of the top level.
+std::vector<std::span<const Placed>> top_blocks(std::span<const Placed> placed) {
+    std::vector<std::span<const Placed>> runs;
+    for (size_t begin = 0; begin < placed.size();) {
+        size_t end = begin;
+        while (end < placed.size() &&
+               block_of(placed[end].code, kTopLevel) == block_of(placed[begin].code, kTopLevel)) {
+            ++end;
+        }
+        runs.push_back(placed.subspan(begin, end - begin));
+        begin = end;
+    }
+    return runs;
+}
+
+/// Finds, for patches, the records around them and what each weighs.
+class Interpolator {
+public:
+    Interpolator(const RayScene& rays, const Patches& patches, const Records& records)
+        : rays_(rays), patches_(patches), records_(records) {
+        for (uint32_t r = 0; r < records.patch.size(); ++r) {
+            by_block_[key(records.patch[r], {0, 0, 0})].push_back(r);
+        }
+    }
+
+    /// Records in the block of a patch and the 26 around it.
+    [[nodiscard]] std::vector<uint32_t> around(uint32_t patch) const {
+        std::vector<uint32_t> found;
+        for (int i = 0; i < 27; ++i) {
+            const auto at = by_block_.find(key(patch, glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1));
+            if (at != by_block_.end()) {
+                found.insert(found.end(), at->second.begin(), at->second.end());
+            }
+        }
+        return found;
+    }
+
+    /// The heaviest of `nearby` that the patch sees, weights adding up to 1.
+    [[nodiscard]] std::vector<Records::Share> shares(uint32_t patch, std::span<const uint32_t> nearby) const {
+        constexpr size_t kMost = 8;
+        std::vector<Records::Share> all;
+        for (uint32_t r : nearby) {
+            const float w = weight(patch, r);
+            if (w > 0.0f) {
+                all.push_back({r, w});
+            }
+        }
+        std::sort(all.begin(), all.end(), [](const Records::Share& a, const Records::Share& b) {
+            return a.weight != b.weight ? a.weight > b.weight : a.record < b.record;
+        });
+        std::vector<Records::Share> kept;
+        float sum = 0.0f;
+        for (const Records::Share& s : all) {
+            if (kept.size() < kMost && sees(patch, records_.patch[s.record])) {
+                kept.push_back(s);
+                sum += s.weight;
+            }
+        }
+        for (Records::Share& s : kept) {
+            s.weight /= sum;
+        }
+        return kept;
+    }
+
+private:
+    [[nodiscard]] uint64_t key(uint32_t patch, const glm::ivec3& offset) const noexcept {
+        const Patches::Grid& grid = patches_.grids[patches_.grid[patch]];
+        const glm::ivec3 block = (grid.cells.cell_at(patches_.order[patch]) >> kTopLevel) + offset + 1;
+        return uint64_t(patches_.grid[patch]) << 48 | uint64_t(block.z) << 32 | uint64_t(block.y) << 16 |
+               uint64_t(block.x);
+    }
+
+    /// Falls from the record's place to nothing at twice its spacing, and with the angle between the
+    /// surfaces.
+    [[nodiscard]] float weight(uint32_t patch, uint32_t record) const noexcept {
+        const uint32_t at = records_.patch[record];
+        const float spacing_m = records_.spacing_m[record];
+        const glm::vec3 apart = patches_.position[patch] - patches_.position[at];
+        const float near = 1.0f - glm::length(apart) / (2.0f * spacing_m);
+        const float facing = (glm::dot(patches_.normal[patch], patches_.normal[at]) - 0.6f) / 0.4f;
+        const float off_plane = std::abs(glm::dot(patches_.normal[patch], apart)) / spacing_m;
+        const float plane = 1.0f - off_plane;
+        if (near <= 0.0f || facing <= 0.0f || plane <= 0.0f) {
+            return 0.0f;
+        }
+        return near * near * facing * plane / (spacing_m * spacing_m);
+    }
+
+    [[nodiscard]] bool sees(uint32_t a, uint32_t b) const noexcept {
+        if (a == b) {
+            return true;
+        }
+        const float cell_m = patches_.grids[patches_.grid[a]].cells.cell_m;
+        const float lift_m =
+            2.0f * kLift * cell_m + 0.12f * glm::distance(patches_.position[a], patches_.position[b]);
+        return !rays_.is_blocked(patches_.position[a] + lift_m * patches_.normal[a],
+                                 patches_.position[b] + lift_m * patches_.normal[b]);
+    }
+
+    const RayScene& rays_;
+    const Patches& patches_;
+    const Records& records_;
+    std::unordered_map<uint64_t, std::vector<uint32_t>> by_block_;
+};
+
+void append(Records& records, const Patches& patches, const Draft& draft) {
+    records.patch.push_back(draft.patch);
+    records.spacing_m.push_back(patches.grids[patches.grid[draft.patch]].cells.cell_m *
+                                float(1 << draft.level));
+    append_point(records.links, draft.fan);
+}
+
+/// Calls make(i) for i in [0, count) on all workers; results in order.
+template <typename F>
+auto parallel_list(size_t count, const F& make) {
+    std::vector<decltype(make(size_t{}))> out(count);
+    parallel_for(count, 4, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            out[i] = make(i);
+        }
+    });
+    return out;
+}
+
+} // namespace
+
+Records make_records(const StillScene& scene, const RayScene& rays, const Patches& patches) {
+    const std::vector<Placed> placed = in_morton_order(patches);
+    const std::vector<std::span<const Placed>> blocks = top_blocks(placed);
+    const Placer placer(scene, rays, patches);
+    Records records;
+    for (const std::vector<Draft>& drafts : parallel_list(blocks.size(), [&](size_t i) {
+             std::vector<Draft> out;
+             placer.place(blocks[i], kTopLevel, out);
+             return out;
+         })) {
+        for (const Draft& d : drafts) {
+            append(records, patches, d);
+        }
+    }
+    // Shares of all patches; those that see no record become records themselves.
+    const Interpolator interpolator(rays, patches, records);
+    using BlockShares = std::vector<std::vector<Records::Share>>;
+    const std::vector<BlockShares> found = parallel_list(blocks.size(), [&](size_t i) {
+        const std::vector<uint32_t> nearby = interpolator.around(blocks[i][0].patch);
+        BlockShares out;
+        for (const Placed& p : blocks[i]) {
+            out.push_back(interpolator.shares(p.patch, nearby));
+        }
+        return out;
+    });
+    std::vector<std::vector<Records::Share>> of_patch(patches.size());
+    std::vector<uint32_t> orphans;
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        for (size_t k = 0; k < blocks[i].size(); ++k) {
+            const uint32_t patch = blocks[i][k].patch;
+            of_patch[patch] = found[i][k];
+            if (found[i][k].empty()) {
+                orphans.push_back(patch);
+            }
+        }
+    }
+    for (const Draft& d :
+         parallel_list(orphans.size(), [&](size_t i) { return placer.single(orphans[i]); })) {
+        of_patch[d.patch] = {{uint32_t(records.patch.size()), 1.0f}};
+        append(records, patches, d);
+    }
+    for (const std::vector<Records::Share>& shares : of_patch) {
+        records.first.push_back(uint32_t(records.shares.size()));
+        records.shares.insert(records.shares.end(), shares.begin(), shares.end());
+    }
+    records.first.push_back(uint32_t(records.shares.size()));
+    return records;
+}
+
+} // namespace cl::radiosity

@@ -1,0 +1,197 @@
+#include "servers/radiosity/solver.h"
+
+#include "core/threads.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cl::radiosity {
+namespace {
+
+constexpr int kMaxBounces = 96;
+constexpr float kTolerance = 1e-3f;
+
+template <typename F>
+void for_all(size_t count, const F& f) {
+    parallel_for(count, 512, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            f(i);
+        }
+    });
+}
+
+bool sky_reaches(const Transport& t, const Lighting& lighting, uint32_t patch) noexcept {
+    const uint8_t grid = t.patches.grid[patch];
+    return grid >= lighting.interior.size() || !lighting.interior[grid];
+}
+
+/// Mean radiance that a point's rays meet.
+glm::vec3 gather(const Links& links, const Links::Point& point, std::span<const glm::vec3> leaving,
+                 std::span<const glm::vec3> sky, bool with_sky) noexcept {
+    glm::vec3 sum(0.0f);
+    for (uint32_t patch : links.patches_of(point)) {
+        sum += leaving[patch];
+    }
+    if (with_sky) {
+        for (uint32_t bin : links.skies_of(point)) {
+            sum += sky[bin];
+        }
+    }
+    return point.ray_count > 0 ? sum / float(point.ray_count) : sum;
+}
+
+std::vector<glm::vec3> gather_records(const Transport& t, const Lighting& lighting,
+                                      std::span<const glm::vec3> leaving) {
+    std::vector<glm::vec3> arriving(t.records.patch.size());
+    for_all(arriving.size(), [&](size_t r) {
+        arriving[r] = gather(t.records.links, t.records.links.points[r], leaving, lighting.sky,
+                             sky_reaches(t, lighting, t.records.patch[r]));
+    });
+    return arriving;
+}
+
+float largest(const glm::vec3& v) noexcept {
+    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+}
+
+/// Sums the bounces after the first: arriving = first + exchange * arriving, by Jacobi steps. They converge
+/// as albedos stay below 1.
+int bounce(const Transport& t, std::span<const glm::vec3> first, std::vector<glm::vec3>& arriving,
+           const std::atomic<bool>& stop) {
+    std::vector<glm::vec3> next(arriving.size());
+    for (int n = 1; n <= kMaxBounces && !stop; ++n) {
+        for_all(next.size(), [&](size_t r) {
+            glm::vec3 sum = first[r];
+            for (uint32_t e = t.exchange_first[r]; e < t.exchange_first[r + 1]; ++e) {
+                sum += t.exchanges[e].albedo * arriving[t.exchanges[e].record];
+            }
+            next[r] = sum;
+        });
+        double change = 0.0, total = 0.0;
+        for (size_t r = 0; r < next.size(); ++r) {
+            change += double(largest(next[r] - arriving[r]));
+            total += double(largest(next[r]));
+        }
+        arriving.swap(next);
+        if (change <= double(kTolerance) * total * 0.25) {
+            return n;
+        }
+    }
+    return kMaxBounces;
+}
+
+std::vector<glm::vec3> at_patches(const Transport& t, std::span<const glm::vec3> at_records) {
+    std::vector<glm::vec3> out(t.patches.size());
+    for_all(out.size(), [&](size_t p) {
+        glm::vec3 sum(0.0f);
+        for (const Records::Share& s : t.records.of_patch(uint32_t(p))) {
+            sum += s.weight * at_records[s.record];
+        }
+        out[p] = sum;
+    });
+    return out;
+}
+
+std::vector<glm::vec3> direct_at_patches(const Transport& t, const Lighting& lighting) {
+    std::vector<glm::vec3> out(t.patches.size());
+    for_all(out.size(), [&](size_t p) {
+        const float lift_m = kLift * t.patches.grids[t.patches.grid[p]].cells.cell_m;
+        glm::vec3 sum(0.0f);
+        for (const Source& s : lighting.sources) {
+            sum += direct_light(s, t.rays, t.patches.position[p], t.patches.normal[p], lift_m);
+        }
+        out[p] = sum;
+    });
+    return out;
+}
+
+std::vector<glm::vec3> leaving_from(const Transport& t, std::span<const glm::vec3> direct,
+                                    std::span<const glm::vec3> arriving) {
+    std::vector<glm::vec3> out(t.patches.size());
+    for_all(out.size(), [&](size_t p) {
+        const glm::vec3 light = direct[p] + (arriving.empty() ? glm::vec3(0.0f) : arriving[p]);
+        out[p] = t.patches.emission[p] + t.patches.albedo[p] * light;
+    });
+    return out;
+}
+
+std::vector<Solution::Air> gather_air(const AirPoints& air, const Lighting& lighting, bool with_sky,
+                                      std::span<const glm::vec3> leaving) {
+    std::vector<Solution::Air> own(air.links.points.size());
+    for_all(own.size(), [&](size_t i) {
+        const Links::Point& point = air.links.points[i];
+        Solution::Air a{};
+        const auto add = [&](const glm::vec3& radiance, const glm::vec3& direction) {
+            a.mean += radiance;
+            for (int axis = 0; axis < 3; ++axis) {
+                a.slope[size_t(axis)] += radiance * direction[axis];
+            }
+        };
+        for (uint32_t k = 0; k < point.patch_count + point.sky_count; ++k) {
+            const uint32_t target = air.links.targets[point.first + k];
+            const bool is_sky = k >= point.patch_count;
+            if (!is_sky || with_sky) {
+                add(is_sky ? lighting.sky[target] : leaving[target], air.targets_direction[point.first + k]);
+            }
+        }
+        const float scale = point.ray_count > 0 ? 1.0f / float(point.ray_count) : 0.0f;
+        own[i] = {a.mean * scale, {a.slope[0] * scale, a.slope[1] * scale, a.slope[2] * scale}};
+    });
+    std::vector<Solution::Air> shown(own.size());
+    for_all(own.size(), [&](size_t i) { shown[i] = own[air.stand_in[i]]; });
+    return shown;
+}
+
+} // namespace
+
+glm::vec3 direct_light(const Source& s, const RayScene& rays, const glm::vec3& position,
+                       const glm::vec3& normal, float lift_m) noexcept {
+    glm::vec3 to_light = s.to_light;
+    float factor = 1.0f, distance_m = 1e5f;
+    if (s.type != SourceType::Directional) {
+        const glm::vec3 apart = s.position - position;
+        distance_m = glm::length(apart);
+        if (distance_m >= s.range_m || distance_m <= 0.0f) {
+            return glm::vec3(0.0f);
+        }
+        to_light = apart / distance_m;
+        factor = std::pow(1.0f - distance_m / s.range_m, s.attenuation);
+    }
+    if (s.type == SourceType::Spot) {
+        const float cosine = std::max(glm::dot(to_light, s.to_light), s.cos_spot_angle);
+        const float rim = std::max((1.0f - cosine) / std::max(1.0f - s.cos_spot_angle, 1e-6f), 1e-3f);
+        factor *= 1.0f - std::pow(rim, s.spot_attenuation);
+    }
+    factor *= glm::dot(normal, to_light);
+    if (!(factor > 0.0f)) {
+        return glm::vec3(0.0f);
+    }
+    const glm::vec3 from = position + lift_m * normal;
+    const bool dark =
+        s.shadow && rays.is_blocked({from, to_light, std::max(distance_m - 2.0f * lift_m, 0.0f)});
+    return dark ? glm::vec3(0.0f) : factor * s.radiance;
+}
+
+Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<bool>& stop) {
+    Solution s;
+    const std::vector<glm::vec3> direct = direct_at_patches(t, lighting);
+    const std::vector<glm::vec3> first = gather_records(t, lighting, leaving_from(t, direct, {}));
+    std::vector<glm::vec3> arriving = first;
+    s.bounces = bounce(t, first, arriving, stop);
+    // The last bounce again, from patches instead of records: what is seen has the detail.
+    const std::vector<glm::vec3> before_last = at_patches(t, arriving);
+    arriving = gather_records(t, lighting, leaving_from(t, direct, before_last));
+    s.arriving = at_patches(t, arriving);
+    s.leaving = leaving_from(t, direct, s.arriving);
+    for (size_t i = 0; i < t.air.size() && !stop; ++i) {
+        s.air.push_back(gather_air(t.air[i], lighting,
+                                   !(i < lighting.interior.size() && lighting.interior[i]), s.leaving));
+    }
+    return s;
+}
+
+} // namespace cl::radiosity

@@ -1,0 +1,143 @@
+#include "servers/radiosity/transport.h"
+
+#include "core/threads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cl::radiosity {
+namespace {
+
+constexpr int kOuterCells = 64;
+constexpr int kMaxOuterGrids = 8; // 256 times the size of the probes
+
+CellGrid grid_of_box(const Transform& world_from_box, const AABB& box, int cells) {
+    CellGrid grid;
+    const float longest_m = std::max(box.size.x, std::max(box.size.y, box.size.z));
+    grid.cell_m = longest_m / float(cells);
+    for (int axis = 0; axis < 3; ++axis) {
+        grid.dims[axis] = std::clamp(int(std::ceil(box.size[axis] / grid.cell_m - 1e-3f)), 1, cells);
+    }
+    grid.world_from_cells = world_from_box * Transform{glm::mat3(grid.cell_m), box.position};
+    grid.cells_from_world = grid.world_from_cells.inverse();
+    return grid;
+}
+
+AABB bounds_of(const StillScene& scene) {
+    AABB box{scene.positions.empty() ? glm::vec3(0.0f) : scene.positions[0], glm::vec3(0.0f)};
+    for (const glm::vec3& p : scene.positions) {
+        box = box.merged({p, glm::vec3(0.0f)});
+    }
+    return box;
+}
+
+bool covers(const AABB& outer, const AABB& inner) noexcept {
+    return glm::all(glm::lessThanEqual(outer.position, inner.position)) &&
+           glm::all(glm::greaterThanEqual(outer.position + outer.size, inner.position + inner.size));
+}
+
+/// The probes' grids, finest first, then coarser and coarser ones around all of them until the scene is
+/// covered: what stands outside still shades and bounces.
+std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeBox> probes) {
+    std::vector<CellGrid> grids;
+    AABB all = transformed(probes[0].world_from_probe, probes[0].box);
+    for (const ProbeBox& p : probes) {
+        grids.push_back(grid_of_box(p.world_from_probe, p.box, kProbeCells));
+        all = all.merged(transformed(p.world_from_probe, p.box));
+    }
+    const AABB bounds = bounds_of(scene);
+    for (int i = 1; i <= kMaxOuterGrids && !covers(all, bounds); ++i) {
+        all = {all.position - 0.5f * all.size, 2.0f * all.size};
+        grids.push_back(grid_of_box({}, all, kOuterCells));
+    }
+    return grids;
+}
+
+/// The record that stands for a patch: its heaviest.
+uint32_t main_record(const Records& records, uint32_t patch) noexcept {
+    const auto shares = records.of_patch(patch);
+    const auto heaviest = std::max_element(shares.begin(), shares.end(),
+                                           [](const auto& a, const auto& b) { return a.weight < b.weight; });
+    return heaviest == shares.end() ? kNoPatch : heaviest->record;
+}
+
+std::vector<Transport::Exchange> exchanges_of(const Transport& t, const Links::Point& point) {
+    std::vector<Transport::Exchange> out;
+    for (uint32_t patch : t.records.links.patches_of(point)) {
+        const uint32_t record = main_record(t.records, patch);
+        if (record != kNoPatch) {
+            out.push_back({record, t.patches.albedo[patch] / float(point.ray_count)});
+        }
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const auto& a, const auto& b) { return a.record < b.record; });
+    size_t last = 0;
+    for (size_t i = 1; i < out.size(); ++i) {
+        if (out[i].record == out[last].record) {
+            out[last].albedo += out[i].albedo;
+        } else {
+            out[++last] = out[i];
+        }
+    }
+    out.resize(std::min(out.size(), last + 1));
+    return out;
+}
+
+void add_exchanges(Transport& t) {
+    const std::vector<Links::Point>& points = t.records.links.points;
+    std::vector<std::vector<Transport::Exchange>> found(points.size());
+    parallel_for(points.size(), 64, [&](size_t begin, size_t end) {
+        for (size_t r = begin; r < end; ++r) {
+            found[r] = exchanges_of(t, points[r]);
+        }
+    });
+    for (const std::vector<Transport::Exchange>& list : found) {
+        t.exchange_first.push_back(uint32_t(t.exchanges.size()));
+        t.exchanges.insert(t.exchanges.end(), list.begin(), list.end());
+    }
+    t.exchange_first.push_back(uint32_t(t.exchanges.size()));
+}
+
+} // namespace
+
+size_t Transport::bytes() const noexcept {
+    size_t air_bytes = 0;
+    for (const AirPoints& a : air) {
+        air_bytes += a.links.targets.size() * (sizeof(uint32_t) + sizeof(glm::vec3)) +
+                     a.links.points.size() * sizeof(Links::Point);
+    }
+    const size_t per_patch = 5 * sizeof(glm::vec3) + 2 * sizeof(uint64_t);
+    return patches.size() * per_patch + records.links.targets.size() * sizeof(uint32_t) +
+           records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange) + air_bytes;
+}
+
+Expected<std::shared_ptr<const Transport>> make_transport(std::shared_ptr<const StillScene> scene,
+                                                          std::span<const ProbeBox> probes,
+                                                          const std::atomic<bool>& stop) {
+    Expected<RayScene> rays = RayScene::create(*scene);
+    if (!rays) {
+        return rays.error();
+    }
+    const Error cancelled{ErrorCode::Cancelled, "light transport: cancelled"};
+    auto t =
+        std::make_shared<Transport>(Transport{scene, std::move(*rays), {}, {}, probes.size(), {}, {}, {}});
+    t->patches = make_patches(*scene, t->rays, make_grids(*scene, probes), probes.size());
+    if (stop) {
+        return cancelled;
+    }
+    t->records = make_records(*scene, t->rays, t->patches);
+    if (stop) {
+        return cancelled;
+    }
+    for (size_t i = 0; i < probes.size() && !stop; ++i) {
+        t->air.push_back(make_air_points(*scene, t->rays, t->patches, t->patches.grids[i].cells));
+    }
+    add_exchanges(*t);
+    if (stop) {
+        return cancelled;
+    }
+    return std::shared_ptr<const Transport>(std::move(t));
+}
+
+} // namespace cl::radiosity
