@@ -1,10 +1,10 @@
 #include "servers/radiosity/air_points.h"
 
 #include "servers/radiosity/sampling.h"
-#include "servers/radiosity/sky_bins.h"
 
 #include "core/threads.h"
 
+#include <array>
 #include <deque>
 
 namespace cl::radiosity {
@@ -12,45 +12,30 @@ namespace {
 
 constexpr uint32_t kRays = 64;
 constexpr uint32_t kNoPoint = 0xFFFFFFFFu;
-constexpr int kSubpoints = 5;
 
-/// A point's fan, with a direction for each link; no rays if the point lies inside a solid.
-struct AirFan {
+/// Light from all around; no rays if the point lies inside a solid.
+RayFan gather_from(const StillScene& scene, const RayScene& rays, const Patches& patches, const glm::vec3& at,
+                   std::span<const glm::vec3> directions) {
+    std::array<Ray, kRays> asked;
+    for (size_t i = 0; i < kRays; ++i) {
+        asked[i] = {at, directions[i]};
+    }
     RayFan fan;
-    std::vector<glm::vec3> patch_directions, sky_directions;
-};
-
-AirFan gather_from(const StillScene& scene, const RayScene& rays, const Patches& patches, const glm::vec3& at,
-                   glm::vec2 start) {
-    AirFan out;
-    for (uint32_t i = 0; i < kRays; ++i) {
-        const glm::vec3 direction = sphere_direction(r2_point(i, start));
-        const Ray ray{at, direction};
-        const size_t patches_before = out.fan.patches.size(), skies_before = out.fan.skies.size();
-        add_rays(scene, rays, patches, std::span(&ray, 1), out.fan);
-        if (out.fan.patches.size() > patches_before) {
-            out.patch_directions.push_back(direction);
-        }
-        if (out.fan.skies.size() > skies_before) {
-            out.sky_directions.push_back(direction);
-        }
-    }
+    add_rays(scene, rays, patches, asked, fan);
     // A quarter of the rays on the backs of surfaces: inside a solid, or behind a wall that has no back.
-    if (out.fan.back_count * 4 > kRays) {
-        out = {};
-    }
-    return out;
+    return fan.back_count * 4 > kRays ? RayFan{} : fan;
 }
 
 /// A point may lie in a solid and its brick not: other places of the brick are tried.
-AirFan gather_near(const StillScene& scene, const RayScene& rays, const Patches& patches,
-                   const CellGrid& grid, const glm::vec3& centre_cells, uint64_t key) {
-    static constexpr glm::vec3 kOffsets[kSubpoints] = {
+RayFan gather_near(const StillScene& scene, const RayScene& rays, const Patches& patches,
+                   const CellGrid& grid, const glm::vec3& centre_cells,
+                   std::span<const glm::vec3> directions) {
+    static constexpr glm::vec3 kOffsets[] = {
         {0, 0, 0}, {1.2f, 1.2f, 1.2f}, {-1.2f, 1.2f, -1.2f}, {1.2f, -1.2f, -1.2f}, {-1.2f, -1.2f, 1.2f}};
     for (const glm::vec3& offset : kOffsets) {
-        AirFan fan = gather_from(scene, rays, patches, grid.world_from_cells.xform(centre_cells + offset),
-                                 hashed_start(key));
-        if (fan.fan.ray_count > 0) {
+        RayFan fan =
+            gather_from(scene, rays, patches, grid.world_from_cells.xform(centre_cells + offset), directions);
+        if (fan.ray_count > 0) {
             return fan;
         }
     }
@@ -96,21 +81,22 @@ AirPoints make_air_points(const StillScene& scene, const RayScene& rays, const P
                           const CellGrid& grid) {
     AirPoints air;
     air.dims = grid.bricks();
-    std::vector<AirFan> fans(size_t(air.dims.x) * size_t(air.dims.y) * size_t(air.dims.z));
+    for (uint32_t i = 0; i < kRays; ++i) {
+        air.directions.push_back(sphere_direction(r2_point(i, glm::vec2(0.5f))));
+    }
+    std::vector<RayFan> fans(size_t(air.dims.x) * size_t(air.dims.y) * size_t(air.dims.z));
     parallel_for(fans.size(), 64, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const int n = int(i);
             const glm::ivec3 brick(n % air.dims.x, n / air.dims.x % air.dims.y,
                                    n / (air.dims.x * air.dims.y));
-            fans[i] = gather_near(scene, rays, patches, grid, glm::vec3(brick * 4 + 2), i);
+            fans[i] = gather_near(scene, rays, patches, grid, glm::vec3(brick * 4 + 2), air.directions);
         }
     });
-    for (const AirFan& f : fans) {
-        append_point(air.links, f.fan);
-        air.targets_direction.insert(air.targets_direction.end(), f.patch_directions.begin(),
-                                     f.patch_directions.end());
-        air.targets_direction.insert(air.targets_direction.end(), f.sky_directions.begin(),
-                                     f.sky_directions.end());
+    for (const RayFan& f : fans) {
+        append_point(air.links, f);
+        air.rays.insert(air.rays.end(), f.patch_rays.begin(), f.patch_rays.end());
+        air.rays.insert(air.rays.end(), f.sky_rays.begin(), f.sky_rays.end());
     }
     air.stand_in = spread(air.links, air.dims);
     return air;

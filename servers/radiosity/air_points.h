@@ -13,10 +13,10 @@ namespace cl::radiosity {
 /// Points in the free space of a probe's box at which light from all around is gathered, for what moves: the
 /// centres of its bricks of 4 x 4 x 4 cells.
 struct AirPoints {
-    glm::ivec3 dims{0}; ///< points, one a brick
-    Links links;        ///< a point each, x fastest; of points inside solids without rays
-    std::vector<glm::vec3>
-        targets_direction; ///< unit vector of each link's ray, one for one with links.targets
+    glm::ivec3 dims{0};                ///< points, one a brick
+    Links links;                       ///< a point each, x fastest; of points inside solids without rays
+    std::vector<glm::vec3> directions; ///< of the rays, the same at each point: neighbours err alike
+    std::vector<uint8_t> rays;         ///< which of them each link is, one for one with links.targets
     std::vector<uint32_t>
         stand_in; ///< for each point, the point whose light it shows: itself, or one in the open
 };

@@ -15,9 +15,10 @@ void add_rays(const StillScene& scene, const RayScene& rays, const Patches& patc
         rays.trace(batch, std::span(hits, batch.size()));
         for (size_t i = 0; i < batch.size(); ++i) {
             const Hit& hit = hits[i];
-            ++fan.ray_count;
+            const uint8_t number = uint8_t(fan.ray_count++);
             if (hit.triangle == kMiss) {
                 fan.skies.push_back(sky_bin(batch[i].direction));
+                fan.sky_rays.push_back(number);
                 continue;
             }
             fan.inverse_distance_sum += 1.0f / std::max(hit.t, 1e-6f);
@@ -30,6 +31,7 @@ void add_rays(const StillScene& scene, const RayScene& rays, const Patches& patc
             const uint32_t patch = patches.find(batch[i].origin + hit.t * batch[i].direction, facing);
             if (patch != kNoPatch) {
                 fan.patches.push_back(patch);
+                fan.patch_rays.push_back(number);
             }
         }
     }

@@ -32,6 +32,7 @@ struct Links {
 /// What the rays of one gather point met.
 struct RayFan {
     std::vector<uint32_t> patches, skies;
+    std::vector<uint8_t> patch_rays, sky_rays; ///< number of each one's ray, modulo 256
     uint32_t ray_count = 0, back_count = 0;
     float inverse_distance_sum = 0.0f; ///< [1/m]; rays that leave add 0
     /// Harmonic mean of the distances to what the rays met [m]: the scale on which irradiance changes.

@@ -1,6 +1,7 @@
 #include "servers/radiosity/patches.h"
 
 #include "servers/radiosity/polygon.h"
+#include "servers/radiosity/sampling.h"
 
 #include "core/threads.h"
 
@@ -135,21 +136,34 @@ glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) 
     return point + kLift * cell_m * normal;
 }
 
-/// True if most rays from a point meet the backs of surfaces: it lies inside a solid.
+/// How many of the rays from a point meet the backs of surfaces.
+template <size_t kCount>
+int count_backs(const RayScene& rays, const std::array<Ray, kCount>& asked) noexcept {
+    std::array<Hit, kCount> hits;
+    rays.trace(asked, hits);
+    return int(std::count_if(hits.begin(), hits.end(),
+                             [](const Hit& h) { return h.triangle != kMiss && !h.is_front; }));
+}
+
+/// True if most rays from a point meet the backs of surfaces: it lies inside a solid. A few rays settle it
+/// where none does; more are asked otherwise, as faces of two solids that touch may hide one another's backs.
 bool is_inside_solid(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal,
                      float cell_m) noexcept {
-    const glm::vec3 up = std::abs(normal.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 s = glm::normalize(glm::cross(up, normal)), t = glm::cross(normal, s);
-    constexpr float kTilt = 0.8f, kRise = 0.6f;
+    const CosineFrame frame(normal);
     const glm::vec3 origin = lifted(point, normal, cell_m);
-    const std::array<Ray, 5> asked{Ray{origin, normal}, Ray{origin, kTilt * s + kRise * normal},
-                                   Ray{origin, -kTilt * s + kRise * normal},
-                                   Ray{origin, kTilt * t + kRise * normal},
-                                   Ray{origin, -kTilt * t + kRise * normal}};
-    std::array<Hit, 5> hits;
-    rays.trace(asked, hits);
-    return std::count_if(hits.begin(), hits.end(),
-                         [](const Hit& h) { return h.triangle != kMiss && !h.is_front; }) >= 3;
+    std::array<Ray, 5> few;
+    for (size_t i = 0; i < few.size(); ++i) {
+        const glm::vec2 u = i == 0 ? glm::vec2(0.0f) : glm::vec2(0.64f, 0.25f * float(i) - 0.125f);
+        few[i] = {origin, frame.direction(u)};
+    }
+    if (count_backs(rays, few) == 0) {
+        return false;
+    }
+    std::array<Ray, 24> many;
+    for (uint32_t i = 0; i < many.size(); ++i) {
+        many[i] = {origin, frame.direction(r2_point(i, glm::vec2(0.5f)))};
+    }
+    return count_backs(rays, many) * 2 >= int(many.size());
 }
 
 /// A patch before it gets its number.

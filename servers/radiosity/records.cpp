@@ -17,7 +17,7 @@ namespace {
 constexpr int kTopLevel = 2;                // blocks of 4 cells an edge at most
 constexpr float kSpacingPerDistance = 0.3f; // a record serves this part of the distance to what is around it
 constexpr uint32_t kProbeRays = 32;
-constexpr uint32_t kRays[kTopLevel + 1] = {128, 192, 256};
+constexpr uint32_t kRays[kTopLevel + 1] = {512, 768, 1024};
 
 /// Interleaves bits: neighbours in a block of 2^k cells differ in the low 3 k bits.
 uint64_t morton(const glm::ivec3& cell) noexcept {

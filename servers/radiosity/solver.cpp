@@ -135,7 +135,8 @@ std::vector<Solution::Air> gather_air(const AirPoints& air, const Lighting& ligh
             const uint32_t target = air.links.targets[point.first + k];
             const bool is_sky = k >= point.patch_count;
             if (!is_sky || with_sky) {
-                add(is_sky ? lighting.sky[target] : leaving[target], air.targets_direction[point.first + k]);
+                add(is_sky ? lighting.sky[target] : leaving[target],
+                    air.directions[air.rays[point.first + k]]);
             }
         }
         const float scale = point.ray_count > 0 ? 1.0f / float(point.ray_count) : 0.0f;

@@ -104,7 +104,7 @@ void add_exchanges(Transport& t) {
 size_t Transport::bytes() const noexcept {
     size_t air_bytes = 0;
     for (const AirPoints& a : air) {
-        air_bytes += a.links.targets.size() * (sizeof(uint32_t) + sizeof(glm::vec3)) +
+        air_bytes += a.links.targets.size() * (sizeof(uint32_t) + sizeof(uint8_t)) +
                      a.links.points.size() * sizeof(Links::Point);
     }
     const size_t per_patch = 5 * sizeof(glm::vec3) + 2 * sizeof(uint64_t);

@@ -110,9 +110,11 @@ void add_gi_field(GIProbe probe, vec3 position, vec3 normal, inout vec4 sum) {
 #ifdef GI_AIR
     vec4 light = vec4(air_light(probe, at, mat3(frame_world_from_view) * normal), 1.0);
 #else
-    vec4 light = surface_light(probe, at, normalize(mat3(probe.cells_from_view) * normal));
+    vec4 found = surface_light(probe, at, normalize(mat3(probe.cells_from_view) * normal));
+    // A pixel that finds no patch (slivers, grown shells) takes what the air around it has.
+    vec4 light = vec4(found.a > 0.0 ? found.rgb : air_slab(probe, at, 0), 1.0);
 #endif
-    float share = field_share(probe, at) * light.a * (1.0 - sum.a);
+    float share = field_share(probe, at) * (1.0 - sum.a);
     sum += vec4(light.rgb * probe.multiplier, 1.0) * share;
 }
 #endif
