@@ -39,6 +39,9 @@ public:
         tree = std::make_unique<SceneTree>(
             std::make_unique<VisualServer>(std::make_unique<RasterizerChecked>(std::move(dummy))),
             ViewportOptions{.size = {64, 64}, .to_window = false});
+        RenderSettings settings;
+        settings.gi_mode = GIMode::Cones; // the volumes are what these tests look at
+        tree->server()->set_settings(settings);
         camera = &tree->root().add_new<Camera>("Camera");
         camera->set_translation({0, 0, 10});
     }

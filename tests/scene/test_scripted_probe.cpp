@@ -30,6 +30,9 @@ public:
         recorder = dummy.get();
         tree = std::make_unique<SceneTree>(
             std::make_unique<VisualServer>(std::make_unique<RasterizerChecked>(std::move(dummy))));
+        RenderSettings settings;
+        settings.gi_mode = GIMode::Cones; // the volumes are what these tests look at
+        tree->server()->set_settings(settings);
         std::unique_ptr<Node> room = demo::make_spinning_lamp_scene(GIProbeSubdiv::Cells64);
         REQUIRE(room->get_node_as<GIProbe>("Probe")->bake().has_value());
         REQUIRE(tree->set_scene(std::move(room)).ok());

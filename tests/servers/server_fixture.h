@@ -33,8 +33,8 @@ inline MeshSurface box_surface(glm::vec3 half_m = glm::vec3(0.5f)) {
     return std::move(surface).value();
 }
 
-/// A server over the recording rasteriser, with every call checked on its way; one world with one camera at
-/// (0, 0, 10) that looks along -Z.
+/// A server over the recording rasteriser that finds GI by cones unless told otherwise, with every call
+/// checked on its way; one world with one camera at (0, 0, 10) that looks along -Z.
 struct ServerFixture {
     dummy::DummyRasterizer* dummy; ///< owned by the server
     VisualServer server;
@@ -42,6 +42,11 @@ struct ServerFixture {
 
     ServerFixture() : ServerFixture(std::make_unique<dummy::DummyRasterizer>()) {}
 
+    void set_gi(GIMode mode) {
+        RenderSettings settings = server.settings();
+        settings.gi_mode = mode;
+        server.set_settings(settings);
+    }
     RID mesh(glm::vec3 half_m = glm::vec3(0.5f), int surfaces = 1) {
         Expected<RID> made =
             server.mesh_create(std::vector<MeshSurface>(static_cast<size_t>(surfaces), box_surface(half_m)));
@@ -67,6 +72,7 @@ struct ServerFixture {
 private:
     explicit ServerFixture(std::unique_ptr<dummy::DummyRasterizer> recorder)
         : dummy(recorder.get()), server(std::make_unique<RasterizerChecked>(std::move(recorder))) {
+        set_gi(GIMode::Cones);
         scenario = server.scenario_create();
         CameraDesc desc;
         desc.world_from_camera = at(0.0f, 0.0f, 10.0f);
