@@ -80,6 +80,12 @@ struct MaterialDesc {
 
     int render_priority = 0;
 
+    /// Smooth enough for its reflections to show more than how much light there is.
+    [[nodiscard]] bool is_glossy() const noexcept {
+        return !is_default && !unshaded && (roughness < 0.7f || roughness_texture) &&
+               (metallic > 0.0f || specular > 0.0f);
+    }
+
     /// Drawn in the sorted transparent pass (spec section 15.1, last lines).
     [[nodiscard]] bool is_transparent() const noexcept {
         return blend_mode != BlendMode::Mix || no_depth_test ||
@@ -212,13 +218,14 @@ struct GIProbeShading {
     float normal_bias_m = 0.0f;
     bool blend_ambient = true;
 
-    // --- Auto: what surfaces and air receive; `volume` is null then ---
+    // --- Auto: what surfaces and air receive; `volume` and `size` are then those of reflections ---
     RID field;                        ///< rasterizer GI field; null until the light is known
     Transform field_cells_from_world; ///< [m] -> [cells of the field]
     glm::vec3 field_cells{0.0f};      ///< size of the box [cells of the field]
     glm::ivec3 field_bricks{0};       ///< of 4 x 4 x 4 cells
     int field_first_brick = 0;        ///< where this probe's begin
     int field_air_z = 0;              ///< where its slabs of air begin [texels]
+    float field_range = 1.0f;         ///< radiance of the volume's texels of 1
 };
 
 } // namespace cl

@@ -154,7 +154,8 @@ uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeature
     }
     const bool in_air = features.gi_field && features.gi_probes > 0 && !item.is_still;
     return scissor | map_bits(m, format) | reflection_bits(m) | frame_bits(features) |
-           (in_air ? Scene::kGiAir : 0u);
+           (in_air ? Scene::kGiAir : 0u) |
+           (features.gi_field && features.gi_probes > 0 && m.is_glossy() ? Scene::kGiGloss : 0u);
 }
 
 gl::DrawState opaque_state(const DrawItem& item, Prepass prepass) noexcept {

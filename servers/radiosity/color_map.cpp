@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,17 @@ namespace cl::radiosity {
 namespace {
 
 constexpr int kMaxEdge = 256;
+
+const std::array<float, 256>& linear_of_byte() {
+    static const std::array<float, 256> kTable = [] {
+        std::array<float, 256> table{};
+        for (size_t i = 0; i < table.size(); ++i) {
+            table[i] = linear_from_srgb(float(i) / 255.0f);
+        }
+        return table;
+    }();
+    return kTable;
+}
 
 /// Mean of the texels of one cell when an image is reduced to `size`.
 glm::vec4 mean_of_box(const Image& rgba, glm::ivec2 size, glm::ivec2 at, bool is_float) {
@@ -29,7 +41,8 @@ glm::vec4 mean_of_box(const Image& rgba, glm::ivec2 size, glm::ivec2 at, bool is
                 sum += glm::vec4(p[0], p[1], p[2], p[3]);
             } else {
                 const uint8_t* p = rgba.data.data() + texel;
-                sum += glm::vec4(linear_from_srgb(glm::vec3(p[0], p[1], p[2]) / 255.0f), p[3] / 255.0f);
+                const std::array<float, 256>& linear = linear_of_byte();
+                sum += glm::vec4(linear[p[0]], linear[p[1]], linear[p[2]], float(p[3]) / 255.0f);
             }
         }
     }

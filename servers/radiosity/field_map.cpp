@@ -15,6 +15,7 @@ namespace {
 // Facings overlap, so that a pixel whose normal differs a little from its patch's still finds it.
 constexpr float kLeastFacing = 0.35f;
 constexpr float kGoesOnFacing = 0.5f; ///< cosine between surfaces that are taken for one
+constexpr float kCrack_cells = 0.2f;  ///< a space as narrow as this is not looked into
 constexpr float kMaxRadiance = 65408.0f;
 
 glm::vec3 facing_axis(const CellGrid& grid, int facing) noexcept {
@@ -28,26 +29,34 @@ struct FacingCells {
     std::vector<std::array<uint32_t, FieldMap::kSlots>> slots;
 };
 
+/// Keeps the largest patches that face an axis, of the cell's patches [begin, end). Those in a crack (the
+/// inner sides of two layers of cloth) are left out: they are not what a camera sees, and what is there takes
+/// its neighbours' light.
+std::array<uint32_t, FieldMap::kSlots> choose_slots(const Patches& patches, uint32_t begin, uint32_t end,
+                                                    const glm::vec3& axis, float crack_m) noexcept {
+    std::array<uint32_t, FieldMap::kSlots> slots{kNoPatch, kNoPatch};
+    const auto area = [&](uint32_t patch) { return patch == kNoPatch ? -1.0f : patches.area_m2[patch]; };
+    for (uint32_t p = begin; p < end; ++p) {
+        if (glm::dot(patches.normal[p], axis) < kLeastFacing || patches.openness_m[p] < crack_m) {
+            continue;
+        }
+        if (area(p) > area(slots[0])) {
+            slots = {p, slots[0]};
+        } else if (area(p) > area(slots[1])) {
+            slots[1] = p;
+        }
+    }
+    return slots;
+}
+
 FacingCells cells_facing(const Patches& patches, size_t grid_index, int facing) {
     const CellGrid& grid = patches.grids[grid_index].cells;
     const std::vector<uint32_t>& first = patches.grids[grid_index].first;
     const glm::vec3 axis = facing_axis(grid, facing);
     FacingCells out;
     for (size_t cell = 0; cell + 1 < first.size(); ++cell) {
-        std::array<uint32_t, FieldMap::kSlots> slots{kNoPatch, kNoPatch};
-        for (uint32_t p = first[cell]; p < first[cell + 1]; ++p) {
-            if (glm::dot(patches.normal[p], axis) < kLeastFacing) {
-                continue;
-            }
-            const auto area = [&](uint32_t patch) {
-                return patch == kNoPatch ? -1.0f : patches.area_m2[patch];
-            };
-            if (area(p) > area(slots[0])) {
-                slots = {p, slots[0]};
-            } else if (area(p) > area(slots[1])) {
-                slots[1] = p;
-            }
-        }
+        const auto slots =
+            choose_slots(patches, first[cell], first[cell + 1], axis, kCrack_cells * grid.cell_m);
         if (slots[0] != kNoPatch) {
             out.orders.push_back(patches.order[slots[0]]);
             out.slots.push_back(slots);

@@ -22,7 +22,8 @@ constexpr float kLeastArea_cells = 1e-5f;
 // Fragments of one patch face the same way within 37 degrees and lie in one plane within a third of a cell.
 constexpr float kSameFacing = 0.8f;
 constexpr float kSamePlane_cells = 0.34f;
-constexpr size_t kMaxCandidates = 12;
+constexpr float kOneLayer_cells = 0.02f;
+constexpr size_t kMaxCandidates = 20;
 
 /// A piece of a triangle in a cell.
 struct Fragment {
@@ -92,6 +93,7 @@ std::vector<Fragment> cut_all(const StillScene& scene, std::span<const CellGrid>
     std::vector<Fragment> all;
     for (std::vector<Fragment>& part : parts) {
         all.insert(all.end(), part.begin(), part.end());
+        part = {}; // a large scene has hundreds of megabytes of them
     }
     tbb::parallel_sort(all.begin(), all.end(), [](const Fragment& a, const Fragment& b) {
         return std::tie(a.grid, a.order, a.triangle, a.back) < std::tie(b.grid, b.order, b.triangle, b.back);
@@ -136,19 +138,32 @@ glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) 
     return point + kLift * cell_m * normal;
 }
 
-/// How many of the rays from a point meet the backs of surfaces.
+/// What a few rays from a point of a surface meet.
+struct Outlook {
+    int backs = 0;            ///< backs of surfaces
+    float openness_m = 1e30f; ///< harmonic mean of the distances
+};
+
 template <size_t kCount>
-int count_backs(const RayScene& rays, const std::array<Ray, kCount>& asked) noexcept {
+Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked) noexcept {
     std::array<Hit, kCount> hits;
     rays.trace(asked, hits);
-    return int(std::count_if(hits.begin(), hits.end(),
-                             [](const Hit& h) { return h.triangle != kMiss && !h.is_front; }));
+    Outlook outlook;
+    float inverse_sum = 0.0f;
+    for (const Hit& h : hits) {
+        if (h.triangle != kMiss) {
+            outlook.backs += h.is_front ? 0 : 1;
+            inverse_sum += 1.0f / std::max(h.t, 1e-6f);
+        }
+    }
+    outlook.openness_m = inverse_sum > 0.0f ? float(kCount) / inverse_sum : 1e30f;
+    return outlook;
 }
 
-/// True if most rays from a point meet the backs of surfaces: it lies inside a solid. A few rays settle it
-/// where none does; more are asked otherwise, as faces of two solids that touch may hide one another's backs.
-bool is_inside_solid(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal,
-                     float cell_m) noexcept {
+/// How open the space before a point is [m]; less than 0 if most rays meet the backs of surfaces: it lies
+/// inside a solid. A few rays settle it where none does; more are asked otherwise, as faces of two solids
+/// that touch may hide one another's backs.
+float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal, float cell_m) noexcept {
     const CosineFrame frame(normal);
     const glm::vec3 origin = lifted(point, normal, cell_m);
     std::array<Ray, 5> few;
@@ -156,20 +171,22 @@ bool is_inside_solid(const RayScene& rays, const glm::vec3& point, const glm::ve
         const glm::vec2 u = i == 0 ? glm::vec2(0.0f) : glm::vec2(0.64f, 0.25f * float(i) - 0.125f);
         few[i] = {origin, frame.direction(u)};
     }
-    if (count_backs(rays, few) == 0) {
-        return false;
+    const Outlook first = look(rays, few);
+    if (first.backs == 0) {
+        return first.openness_m;
     }
     std::array<Ray, 24> many;
     for (uint32_t i = 0; i < many.size(); ++i) {
         many[i] = {origin, frame.direction(r2_point(i, glm::vec2(0.5f)))};
     }
-    return count_backs(rays, many) * 2 >= int(many.size());
+    const Outlook second = look(rays, many);
+    return second.backs * 2 >= int(many.size()) ? -1.0f : second.openness_m;
 }
 
 /// A patch before it gets its number.
 struct Draft {
     glm::vec3 position, normal, albedo{0.0f}, emission{0.0f};
-    float area_m2 = 0.0f;
+    float area_m2 = 0.0f, openness_m = 0.0f;
     uint64_t order = 0;
     uint8_t grid = 0;
 };
@@ -186,8 +203,8 @@ public:
         for (const Cluster& c : clusters) {
             Draft draft = summed(c, grid);
             const glm::vec3 middle = nearest_fragment(c);
-            const bool sees = !is_inside_solid(rays_, middle, draft.normal, grid.cell_m);
-            if (sees && clusters.size() == 1) {
+            draft.openness_m = openness(rays_, middle, draft.normal, grid.cell_m);
+            if (draft.openness_m >= 0.0f && is_alone(clusters, c, grid.cell_m)) {
                 draft.position = middle;
                 out.push_back(draft);
             } else {
@@ -197,6 +214,16 @@ public:
     }
 
 private:
+    /// True if nothing can divide a cluster into several spaces: no other in the cell, no second layer of its
+    /// own.
+    [[nodiscard]] bool is_alone(std::span<const Cluster> clusters, const Cluster& c,
+                                float cell_m) const noexcept {
+        const glm::vec3 middle = c.centroid();
+        return clusters.size() == 1 && std::all_of(c.fragments.begin(), c.fragments.end(), [&](uint32_t i) {
+                   return std::abs(glm::dot(all_[i].centroid - middle, c.normal)) < kOneLayer_cells * cell_m;
+               });
+    }
+
     /// Colours and area of a cluster.
     Draft summed(const Cluster& c, const CellGrid& grid) const {
         Draft draft;
@@ -244,12 +271,14 @@ private:
         std::stable_sort(largest.begin(), largest.end(),
                          [this](uint32_t a, uint32_t b) { return all_[a].area_cells > all_[b].area_cells; });
         std::vector<glm::vec3> points;
+        for (size_t i = 0; i < std::min(largest.size(), kMaxCandidates / 2); ++i) {
+            points.push_back(all_[largest[i]].centroid);
+        }
         for (uint32_t i : largest) {
             const Fragment& f = all_[i];
             if (points.size() >= kMaxCandidates) {
                 break;
             }
-            points.push_back(f.centroid);
             const glm::vec3 facing = facing_of(scene_, f.triangle, f.back);
             const Polygon whole = in_cells(scene_, f.triangle, grid, facing);
             const glm::ivec3 cell = grid.cell_at(f.order);
@@ -272,7 +301,7 @@ private:
         std::vector<glm::vec3> points = candidates(c, grid);
         const size_t asked = points.size();
         std::erase_if(
-            points, [&](const glm::vec3& p) { return is_inside_solid(rays_, p, draft.normal, grid.cell_m); });
+            points, [&](const glm::vec3& p) { return openness(rays_, p, draft.normal, grid.cell_m) < 0.0f; });
         std::vector<int> space(points.size(), -1);
         for (size_t i = 0; i < points.size(); ++i) {
             if (space[i] < 0) {
@@ -280,6 +309,7 @@ private:
                 std::vector<glm::vec3> members = flood(points, i, draft.normal, grid.cell_m, space);
                 Draft one = draft;
                 one.position = most_central(members);
+                one.openness_m = openness(rays_, one.position, one.normal, grid.cell_m);
                 one.area_m2 = draft.area_m2 * float(members.size()) / float(asked);
                 out.push_back(one);
             }
@@ -338,6 +368,7 @@ void append(Patches& out, const Draft& d) {
     out.albedo.push_back(d.albedo);
     out.emission.push_back(d.emission);
     out.area_m2.push_back(d.area_m2);
+    out.openness_m.push_back(d.openness_m);
     out.grid.push_back(d.grid);
     out.order.push_back(d.order);
 }

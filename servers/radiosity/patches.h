@@ -28,8 +28,9 @@ struct Patches {
     std::vector<glm::vec3> normal;           ///< unit length
     std::vector<glm::vec3> albedo, emission; ///< linear, mean over the patch
     std::vector<float> area_m2;
-    std::vector<uint8_t> grid;   ///< its grid
-    std::vector<uint64_t> order; ///< its cell's CellGrid::order()
+    std::vector<float> openness_m; ///< harmonic mean of the distances to what is before it [m]
+    std::vector<uint8_t> grid;     ///< its grid
+    std::vector<uint64_t> order;   ///< its cell's CellGrid::order()
 
     [[nodiscard]] size_t size() const noexcept { return position.size(); }
     /// The patch that a point of a surface belongs to; kNoPatch if there is none.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +19,9 @@ constexpr int kTopLevel = 2;                // blocks of 4 cells an edge at most
 constexpr float kSpacingPerDistance = 0.3f; // a record serves this part of the distance to what is around it
 constexpr uint32_t kProbeRays = 32;
 constexpr uint32_t kRays[kTopLevel + 1] = {512, 768, 1024};
+// Where records are many they lie close and share their noise: a scene takes about this many rays in all.
+constexpr uint64_t kRayBudget = 12'000'000;
+constexpr uint32_t kLeastRays = 96;
 
 /// Interleaves bits: neighbours in a block of 2^k cells differ in the low 3 k bits.
 uint64_t morton(const glm::ivec3& cell) noexcept {
@@ -70,18 +74,16 @@ public:
             trace(draft, 0, kProbeRays);
             const float spacing_m = cell_m(draft.patch) * float(1 << level);
             if (level == 0 || spacing_m <= kSpacingPerDistance * draft.fan.mean_distance_m()) {
-                trace(draft, kProbeRays, kRays[level]);
                 out.push_back(std::move(draft));
             } else {
                 place_parts(group, level - 1, out);
             }
         }
     }
-    /// A record at a patch that no other record serves.
-    Draft single(uint32_t patch) const {
-        Draft draft{patch, 0, {}};
-        trace(draft, 0, kRays[0]);
-        return draft;
+    /// Traces the rays a record still lacks. @param share  of the full number
+    void finish(Draft& draft, float share) const {
+        const uint32_t rays = std::max(uint32_t(share * float(kRays[draft.level])), kLeastRays);
+        trace(draft, draft.fan.ray_count, rays);
     }
 
 private:
@@ -249,13 +251,6 @@ private:
     std::unordered_map<uint64_t, std::vector<uint32_t>> by_block_;
 };
 
-void append(Records& records, const Patches& patches, const Draft& draft) {
-    records.patch.push_back(draft.patch);
-    records.spacing_m.push_back(patches.grids[patches.grid[draft.patch]].cells.cell_m *
-                                float(1 << draft.level));
-    append_point(records.links, draft.fan);
-}
-
 /// Calls make(i) for i in [0, count) on all workers; results in order.
 template <typename F>
 auto parallel_list(size_t count, const F& make) {
@@ -268,49 +263,83 @@ auto parallel_list(size_t count, const F& make) {
     return out;
 }
 
+/// Places the records of all blocks, in order.
+std::vector<Draft> place_all(const Placer& placer, std::span<const std::span<const Placed>> blocks) {
+    std::vector<Draft> drafts;
+    for (std::vector<Draft>& part : parallel_list(blocks.size(), [&](size_t i) {
+             std::vector<Draft> out;
+             placer.place(blocks[i], kTopLevel, out);
+             return out;
+         })) {
+        std::move(part.begin(), part.end(), std::back_inserter(drafts));
+    }
+    return drafts;
+}
+
+/// Shares of every patch; empty where it sees no record.
+std::vector<std::vector<Records::Share>> find_shares(const Interpolator& interpolator, size_t patch_count,
+                                                     std::span<const std::span<const Placed>> blocks) {
+    std::vector<std::vector<Records::Share>> of_patch(patch_count);
+    parallel_for(blocks.size(), 4, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const std::vector<uint32_t> nearby = interpolator.around(blocks[i][0].patch);
+            for (const Placed& p : blocks[i]) {
+                of_patch[p.patch] = interpolator.shares(p.patch, nearby);
+            }
+        }
+    });
+    return of_patch;
+}
+
+/// Part of their full number of rays that records may have, so that all together keep to the budget.
+float ray_share(std::span<const Draft> drafts) noexcept {
+    uint64_t wanted = 0;
+    for (const Draft& d : drafts) {
+        wanted += kRays[d.level];
+    }
+    return wanted > kRayBudget ? float(double(kRayBudget) / double(wanted)) : 1.0f;
+}
+
+/// Traces what rays are still to be traced and lists where they end.
+Links finish_links(const Placer& placer, std::vector<Draft>& drafts) {
+    const float share = ray_share(drafts);
+    parallel_for(drafts.size(), 16, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            placer.finish(drafts[i], share);
+        }
+    });
+    Links links;
+    for (Draft& d : drafts) {
+        append_point(links, d.fan);
+        d.fan = {}; // its memory is in the lists now
+    }
+    return links;
+}
+
 } // namespace
 
 Records make_records(const StillScene& scene, const RayScene& rays, const Patches& patches) {
     const std::vector<Placed> placed = in_morton_order(patches);
     const std::vector<std::span<const Placed>> blocks = top_blocks(placed);
     const Placer placer(scene, rays, patches);
+    std::vector<Draft> drafts = place_all(placer, blocks);
     Records records;
-    for (const std::vector<Draft>& drafts : parallel_list(blocks.size(), [&](size_t i) {
-             std::vector<Draft> out;
-             placer.place(blocks[i], kTopLevel, out);
-             return out;
-         })) {
-        for (const Draft& d : drafts) {
-            append(records, patches, d);
+    const auto add = [&](const Draft& d) {
+        records.patch.push_back(d.patch);
+        records.spacing_m.push_back(patches.grids[patches.grid[d.patch]].cells.cell_m * float(1 << d.level));
+    };
+    std::for_each(drafts.begin(), drafts.end(), add);
+    std::vector<std::vector<Records::Share>> of_patch =
+        find_shares(Interpolator(rays, patches, records), patches.size(), blocks);
+    // Patches that see no record become records themselves.
+    for (uint32_t p = 0; p < of_patch.size(); ++p) {
+        if (of_patch[p].empty()) {
+            of_patch[p] = {{uint32_t(drafts.size()), 1.0f}};
+            drafts.push_back({p, 0, {}});
+            add(drafts.back());
         }
     }
-    // Shares of all patches; those that see no record become records themselves.
-    const Interpolator interpolator(rays, patches, records);
-    using BlockShares = std::vector<std::vector<Records::Share>>;
-    const std::vector<BlockShares> found = parallel_list(blocks.size(), [&](size_t i) {
-        const std::vector<uint32_t> nearby = interpolator.around(blocks[i][0].patch);
-        BlockShares out;
-        for (const Placed& p : blocks[i]) {
-            out.push_back(interpolator.shares(p.patch, nearby));
-        }
-        return out;
-    });
-    std::vector<std::vector<Records::Share>> of_patch(patches.size());
-    std::vector<uint32_t> orphans;
-    for (size_t i = 0; i < blocks.size(); ++i) {
-        for (size_t k = 0; k < blocks[i].size(); ++k) {
-            const uint32_t patch = blocks[i][k].patch;
-            of_patch[patch] = found[i][k];
-            if (found[i][k].empty()) {
-                orphans.push_back(patch);
-            }
-        }
-    }
-    for (const Draft& d :
-         parallel_list(orphans.size(), [&](size_t i) { return placer.single(orphans[i]); })) {
-        of_patch[d.patch] = {{uint32_t(records.patch.size()), 1.0f}};
-        append(records, patches, d);
-    }
+    records.links = finish_links(placer, drafts);
     for (const std::vector<Records::Share>& shares : of_patch) {
         records.first.push_back(uint32_t(records.shares.size()));
         records.shares.insert(records.shares.end(), shares.begin(), shares.end());

@@ -32,9 +32,11 @@ struct FieldDriver::Job {
     std::shared_ptr<const radiosity::Transport> transport;
     std::shared_ptr<const radiosity::FieldMap> map;
     bool is_new = false; ///< transport and map are to be made
+    bool glossy = false; ///< volumes are to be made
     // Made.
     std::vector<uint32_t> light;
     std::vector<uint16_t> air;
+    std::vector<radiosity::RadianceVolume> volumes;
     std::string error;
     int bounces = 0;
     double bake_ms = 0.0, solve_ms = 0.0;
@@ -54,6 +56,9 @@ struct FieldDriver::Job {
             bounces = solution.bounces;
             light = radiosity::encode_field(*map, solution);
             air = radiosity::encode_air(*map, solution);
+            for (size_t i = 0; glossy && i < transport->probe_count; ++i) {
+                volumes.push_back(radiosity::make_radiance_volume(*transport, i, solution));
+            }
         }
         solve_ms = solving.elapsed_ms();
         done = true;
@@ -94,6 +99,10 @@ void FieldDriver::drop(Field& field) {
     if (field.upload) {
         static_cast<void>(rasterizer_.free(field.upload)); // a backend that lost it has nothing left to free
     }
+    for (RID volume : field.volumes) {
+        static_cast<void>(rasterizer_.free(volume));
+    }
+    field.volumes.clear();
     for (const ItemKey& item : field.geometry.items) {
         if (Instance* instance = instances_.get(item.instance)) {
             instance->still_version = 0;
@@ -176,15 +185,18 @@ Status FieldDriver::step(Rest rest) {
         }
         Geometry geometry = wanted_geometry(scenario, rest);
         radiosity::Lighting lighting = wanted_lighting(scenario, geometry);
-        if (!field.transport || geometry != field.geometry || lighting != field.lighting) {
-            start(scenario, field, std::move(geometry), std::move(lighting));
+        const bool glossy = has_gloss(scenario);
+        if (!field.transport || geometry != field.geometry || lighting != field.lighting ||
+            glossy != field.glossy) {
+            start(field, std::move(geometry), std::move(lighting), glossy);
         }
     }
     return errors.status();
 }
 
-void FieldDriver::start(RID, Field& field, Geometry geometry, radiosity::Lighting lighting) {
+void FieldDriver::start(Field& field, Geometry geometry, radiosity::Lighting lighting, bool glossy) {
     auto job = std::make_shared<Job>();
+    job->glossy = glossy;
     job->is_new = !field.transport || geometry != field.geometry;
     if (job->is_new) {
         for (const ItemKey& item : geometry.items) {
@@ -217,6 +229,7 @@ Status FieldDriver::take_in(Field& field) {
         bake_ms_ = job->bake_ms;
     }
     field.lighting = job->lighting;
+    field.glossy = job->glossy;
     if (!field.map) {
         return errors.status();
     }
@@ -234,12 +247,49 @@ Status FieldDriver::take_in(Field& field) {
         }
     }
     errors.note(rasterizer_.gi_field_upload(field.upload, job->light, job->air));
+    errors.note(upload_volumes(field, *job));
     upload_ms_ = uploading.elapsed_ms();
     relight_ms_ = job->solve_ms + upload_ms_;
     log_debug("GI field: " + std::to_string(field.transport->patches.size()) + " patches, " +
               std::to_string(field.transport->records.patch.size()) + " records, " +
               std::to_string(job->bounces) + " bounces, " + std::to_string(relight_ms_) + " ms");
     return errors.status();
+}
+
+Status FieldDriver::upload_volumes(Field& field, const Job& job) {
+    field.ranges.clear();
+    for (size_t i = 0; i < job.volumes.size(); ++i) {
+        const std::vector<radiosity::RadianceVolume::Level>& levels = job.volumes[i].levels;
+        if (i == field.volumes.size()) {
+            const Expected<RID> made =
+                rasterizer_.gi_volume_create({.size = levels[0].size, .mip_count = int(levels.size())});
+            if (!made) {
+                return made.error();
+            }
+            field.volumes.push_back(*made);
+        }
+        for (size_t mip = 0; mip < levels.size(); ++mip) {
+            if (Status s = rasterizer_.gi_volume_upload(field.volumes[i], int(mip), glm::ivec3(0),
+                                                        levels[mip].size, levels[mip].rgba8);
+                !s) {
+                return s;
+            }
+        }
+        field.ranges.push_back(job.volumes[i].range);
+    }
+    return {};
+}
+
+/// True if anything that may be drawn reflects more than a haze: else nobody looks at the volumes.
+bool FieldDriver::has_gloss(RID scenario) {
+    bool found = false;
+    instances_.for_each([&](RID, const Instance& instance) {
+        if (!found && instance.kind == InstanceKind::Mesh && instance.scenario == scenario &&
+            instance.visible) {
+            found = is_glossy(storage_, instance);
+        }
+    });
+    return found;
 }
 
 bool FieldDriver::is_settled() {
@@ -250,7 +300,7 @@ bool FieldDriver::is_settled() {
             return false;
         }
         const Geometry geometry = wanted_geometry(scenario, Rest::AtOnce);
-        return geometry == found->second.geometry &&
+        return has_gloss(scenario) == found->second.glossy && geometry == found->second.geometry &&
                wanted_lighting(scenario, geometry) == found->second.lighting;
     });
 }
@@ -271,6 +321,11 @@ void FieldDriver::describe(RID rid, const Instance& instance, GIProbeShading& sh
             shading.field_bricks = field.map->probes[i].bricks;
             shading.field_first_brick = int(field.map->probes[i].first_brick);
             shading.field_air_z = field.map->probes[i].air_z;
+            if (i < field.ranges.size()) {
+                shading.volume = field.volumes[i];
+                shading.size = radiosity::radiance_volume_size(cells);
+                shading.field_range = field.ranges[i];
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "servers/radiosity/field_map.h"
+#include "servers/radiosity/radiance_volume.h"
 #include "servers/radiosity/solver.h"
 #include "servers/radiosity/transport.h"
 #include "servers/visual/first_error.h"
@@ -78,6 +79,10 @@ private:
         std::shared_ptr<const radiosity::FieldMap> map;
         radiosity::Lighting lighting;
         RID upload; ///< the rasteriser's
+        /// What reflections see, one a probe; empty where nothing is glossy.
+        std::vector<RID> volumes;
+        std::vector<float> ranges;
+        bool glossy = false; ///< volumes are wanted
         std::shared_ptr<Job> job;
     };
     struct Restless {
@@ -86,8 +91,10 @@ private:
 
     [[nodiscard]] Geometry wanted_geometry(RID scenario, Rest rest);
     [[nodiscard]] radiosity::Lighting wanted_lighting(RID scenario, const Geometry& geometry) const;
+    [[nodiscard]] bool has_gloss(RID scenario);
+    Status upload_volumes(Field& field, const Job& job);
     [[nodiscard]] bool rests(RID rid, uint64_t look, Rest rest);
-    void start(RID scenario, Field& field, Geometry geometry, radiosity::Lighting lighting);
+    void start(Field& field, Geometry geometry, radiosity::Lighting lighting, bool glossy);
     Status take_in(Field& field);
     void drop(Field& field);
     [[nodiscard]] std::vector<RID> scenarios_with_probes() const;

@@ -142,6 +142,16 @@ uint64_t look_of(const Storage& storage, const Instance& instance) noexcept {
     return newest;
 }
 
+bool is_glossy(const Storage& storage, const Instance& instance) noexcept {
+    const Mesh* mesh = storage.meshes.get(instance.base);
+    for (size_t i = 0; mesh && i < mesh->surfaces.size(); ++i) {
+        if (storage.materials.describe_first(material_choices(instance, *mesh, i)).desc->is_glossy()) {
+            return true;
+        }
+    }
+    return false;
+}
+
 StillItem describe_still(const Storage& storage, RID rid, const Instance& instance) {
     StillItem item{rid, instance.version, look_of(storage, instance), instance.world_from_local, {}, {}};
     const Mesh* mesh = storage.meshes.get(instance.base);

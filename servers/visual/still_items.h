@@ -33,6 +33,9 @@ struct StillItem {
 /// The newest version of anything that describe_still() would tell: cheap, for every frame.
 [[nodiscard]] uint64_t look_of(const Storage& storage, const Instance& instance) noexcept;
 
+/// True if any surface of an instance is glossy.
+[[nodiscard]] bool is_glossy(const Storage& storage, const Instance& instance) noexcept;
+
 /// All triangles of the items, in world space. Triangles with a number that is not finite are left out.
 [[nodiscard]] radiosity::StillScene make_still_scene(std::span<const StillItem> items);
 

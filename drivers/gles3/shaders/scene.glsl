@@ -1,13 +1,14 @@
 // scene.glsl -- forward shading of one surface: all its lights, ambient light or GI, emission, fog
 // output   linear radiance [W m^-2 sr^-1], straight alpha; before exposure and tone mapping
 // source   spec gi-shading section 7 (composition), scene-classes sections 8 and 14.3
-#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR SKY FOG DIRECTIONAL OMNI SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
+#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR GI_GLOSS SKY FOG DIRECTIONAL OMNI SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
 #pragma validate
 #pragma validate UNSHADED ALBEDO_MAP ALPHA_SCISSOR
 #pragma validate ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR GI_TWO SKY FOG DIRECTIONAL OMNI SPOT
 #pragma validate GI_ONE DIRECTIONAL OMNI SPOT DIFFUSE_LAMBERT SPECULAR_DISABLED
 #pragma validate GI_TWO GI_FIELD SKY OMNI
 #pragma validate GI_ONE GI_FIELD GI_AIR DIRECTIONAL
+#pragma validate GI_TWO GI_FIELD GI_GLOSS ALBEDO_MAP NORMAL_MAP MORE_MAPS SKY DIRECTIONAL OMNI SPOT
 #pragma validate SKY OMNI PCF1 DIFFUSE_WRAP SPECULAR_BLINN
 #pragma validate FOG SPOT PCF13 DIFFUSE_OREN_NAYAR SPECULAR_PHONG
 #pragma validate DIRECTIONAL DIFFUSE_TOON SPECULAR_TOON
@@ -54,10 +55,8 @@ uniform sampler2DShadow shadow_atlas;
 uniform sampler2DShadow directional_shadow;
 uniform sampler2D sky_irradiance_map;
 uniform sampler3D sky_radiance_map;
-#ifndef GI_FIELD
 uniform sampler3D gi_volume_1;
 uniform sampler3D gi_volume_2;
-#endif
 
 #include "lib/light_set_block.glsl"
 #include "lib/brdf.glsl"
@@ -100,13 +99,14 @@ void ambient_light(Surface s, vec3 reflection, vec3 fresnel, out vec3 ambient, o
 
 void gather_gi(Surface s, vec3 reflection, inout vec3 ambient, inout vec3 environment) {
 #ifdef GI_FIELD
-    vec4 sum = vec4(0.0);
-    add_gi_field(draw_gi[0], s.position, s.normal, sum);
+    FieldPoint at = FieldPoint(s.position, mesh_normal(), s.normal, reflection, s.roughness, environment);
+    FieldSum sum = FieldSum(vec3(0.0), vec3(0.0), 0.0);
+    add_gi_field(gi_volume_1, draw_gi[0], at, sum);
 #ifdef GI_TWO
-    add_gi_field(draw_gi[1], s.position, s.normal, sum);
+    add_gi_field(gi_volume_2, draw_gi[1], at, sum);
 #endif
-    ambient = sum.rgb + ambient * (1.0 - sum.a);
-    environment = sum.rgb + environment * (1.0 - sum.a);
+    ambient = sum.diffuse + ambient * (1.0 - sum.share);
+    environment = sum.specular + environment * (1.0 - sum.share);
 #elif defined(GI_ONE) || defined(GI_TWO)
     GIPoint at = GIPoint(s.position, s.normal, reflection, s.roughness, ambient, environment);
     GISum sum = GISum(vec4(0.0), vec4(0.0));

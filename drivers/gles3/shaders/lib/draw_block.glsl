@@ -13,6 +13,7 @@ struct GIProbe {
     ivec3 field_bricks;    // of a GI field: lib/gi_field.glsl
     int field_first_brick;
     int field_air_z;
+    float field_range;     // radiance of a texel of 1
 };
 
 layout(std140) uniform Draw {

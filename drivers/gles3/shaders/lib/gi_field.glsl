@@ -43,6 +43,13 @@ vec3 field_place(uvec2 joint) {
     return (vec3(uvec3(bits, bits >> 3, bits >> 6) & 7u) + 0.5) / 8.0;
 }
 
+/// How ill a patch fits a point of its cell: layers of surface differ along the normal.
+float field_distance(vec3 within, vec3 normal, uvec2 joint) {
+    vec3 apart = within - field_place(joint);
+    float rise = dot(apart, normal);
+    return dot(apart, apart) + 8.0 * rise * rise;
+}
+
 /// Light of the surface around a point of it: patches of the 8 nearest cells, of those that go on from the point's
 /// own. a: 1, or 0 where the field has no patch.
 vec4 surface_light(GIProbe probe, vec3 at, vec3 normal) {
@@ -57,7 +64,8 @@ vec4 surface_light(GIProbe probe, vec3 at, vec3 normal) {
     uvec2 joint = texelFetch(field_joints, field_texel(home_slot), 0).xy;
     uvec2 other = texelFetch(field_joints, field_texel(home_slot + 1), 0).xy;
     vec3 within = behind - vec3(home);
-    bool second = (joint.y >> 31) != 0u && distance(within, field_place(other)) < distance(within, field_place(joint));
+    bool second = (joint.y >> 31) != 0u &&
+                  field_distance(within, normal, other) < field_distance(within, normal, joint);
     joint = second ? other : joint;
     // Without a patch of its own a point takes what is around it.
     uint goes_on = home_cell >= 0 ? joint.x : 0xFFFFFFFFu;
@@ -98,23 +106,97 @@ vec3 air_light(GIProbe probe, vec3 at, vec3 normal) {
     return max(light, vec3(0.0));
 }
 
+/// How much more light the bumped normal receives than the mesh's: as far as the air can tell (world space).
+float bump_factor(GIProbe probe, vec3 at, vec3 normal, vec3 bumped) {
+    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+    float mean = dot(air_slab(probe, at, 0), kLuminance);
+    vec3 slope = 2.0 * vec3(dot(air_slab(probe, at, 1), kLuminance), dot(air_slab(probe, at, 2), kLuminance),
+                            dot(air_slab(probe, at, 3), kLuminance));
+    float least = 0.25 * mean + 1e-6;
+    return max(mean + dot(slope, bumped), least) / max(mean + dot(slope, normal), least);
+}
+
 /// 1 inside a probe's box, falling to 0 at its faces.
 float field_share(GIProbe probe, vec3 at) {
     vec3 margin = min(at, probe.bounds - at);
     return clamp(min(margin.x, min(margin.y, margin.z)) / kFieldFade, 0.0, 1.0);
 }
 
-/// Adds a probe's light where those before it leave room. sum.a: room taken.
-void add_gi_field(GIProbe probe, vec3 position, vec3 normal, inout vec4 sum) {
-    vec3 at = (probe.cells_from_view * vec4(position, 1.0)).xyz;
+struct FieldPoint {
+    vec3 position;
+    vec3 mesh_normal; // patches lie on the mesh ...
+    vec3 normal;      // ... whatever a normal map makes of it
+    vec3 reflection;  // mirror direction of the eye's ray
+    float roughness;
+    vec3 environment; // what reflections meet outside the box
+};
+
+struct FieldSum {
+    vec3 diffuse;
+    vec3 specular;
+    float share; // of the point that probes have taken
+};
+
+/// The mesh's normal, unless it points away from the side that is seen: files have such triangles, and the patches of
+/// the other side are another world.
+vec3 seen_side(FieldPoint point) {
+    vec3 flat_normal = cross(dFdx(point.position), dFdy(point.position));
+    flat_normal *= dot(flat_normal, point.position) > 0.0 ? -1.0 : 1.0;
+    return dot(flat_normal, point.mesh_normal) > 0.0 ? point.mesh_normal : normalize(flat_normal + 1e-20);
+}
+
+vec3 field_diffuse(GIProbe probe, vec3 at, FieldPoint point) {
+    mat3 world_from_view = mat3(frame_world_from_view);
 #ifdef GI_AIR
-    vec4 light = vec4(air_light(probe, at, mat3(frame_world_from_view) * normal), 1.0);
+    return air_light(probe, at, world_from_view * point.normal);
 #else
-    vec4 found = surface_light(probe, at, normalize(mat3(probe.cells_from_view) * normal));
+    vec4 found = surface_light(probe, at, normalize(mat3(probe.cells_from_view) * seen_side(point)));
     // A pixel that finds no patch (slivers, grown shells) takes what the air around it has.
-    vec4 light = vec4(found.a > 0.0 ? found.rgb : air_slab(probe, at, 0), 1.0);
+    vec3 light = found.a > 0.0 ? found.rgb : air_slab(probe, at, 0);
+#ifdef NORMAL_MAP
+    light *= bump_factor(probe, at, world_from_view * point.mesh_normal, world_from_view * point.normal);
 #endif
-    float share = field_share(probe, at) * (1.0 - sum.a);
-    sum += vec4(light.rgb * probe.multiplier, 1.0) * share;
+    return light;
+#endif
+}
+
+#ifdef GI_GLOSS
+/// Light from the mirror direction: one cone through what leaves the surfaces, what it misses from outside. The march
+/// is that of lib/cone_trace.glsl on texels that hold square roots (servers/radiosity/radiance_volume.h).
+vec3 field_specular(sampler3D volume, GIProbe probe, vec3 at, FieldPoint point, vec3 diffuse) {
+    mat3 cells_from_view = mat3(probe.cells_from_view);
+    vec3 direction = normalize(cells_from_view * point.reflection);
+    vec3 origin = at + 1.5 * normalize(cells_from_view * point.mesh_normal);
+    float rho = point.roughness * point.roughness;
+    float tan_half = tan(rho * 0.5 * 3.14159265359 * 0.99);
+    vec3 color = vec3(0.0);
+    float alpha = 0.0;
+    float distance = 1.0;
+    while (distance < probe.reach && alpha < 0.95) {
+        float diameter = cone_diameter(distance, tan_half);
+        vec4 s = textureLod(volume, (origin + distance * direction) * probe.uv_from_cells, log2(diameter));
+        color += s.rgb * s.rgb * (1.0 - alpha);
+        alpha += s.a * (1.0 - alpha);
+        distance += diameter * 0.5;
+    }
+    vec3 met = mix(point.environment, color * probe.field_range / max(alpha, 1e-3), min(alpha / 0.95, 1.0));
+    // Wide cones see through walls: the rougher half takes what the surface itself receives.
+    return mix(met, diffuse, smoothstep(0.5, 0.7, point.roughness));
+}
+#endif
+
+/// Adds a probe's light where those before it leave room.
+void add_gi_field(sampler3D volume, GIProbe probe, FieldPoint point, inout FieldSum sum) {
+    vec3 at = (probe.cells_from_view * vec4(point.position, 1.0)).xyz;
+    vec3 diffuse = field_diffuse(probe, at, point);
+#ifdef GI_GLOSS
+    vec3 specular = field_specular(volume, probe, at, point, diffuse);
+#else
+    vec3 specular = diffuse;
+#endif
+    float share = field_share(probe, at) * (1.0 - sum.share);
+    sum.diffuse += diffuse * probe.multiplier * share;
+    sum.specular += specular * probe.multiplier * share;
+    sum.share += share;
 }
 #endif

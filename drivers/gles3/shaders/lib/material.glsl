@@ -30,9 +30,14 @@ vec4 material_albedo() {
     return albedo * mix(vec4(1.0), vec4(vertex, v_color.a), draw_vertex_color);
 }
 
+/// The mesh's own normal, on the side that is seen.
+vec3 mesh_normal() {
+    return normalize(v_normal) * (gl_FrontFacing ? 1.0 : draw_back_side);
+}
+
 vec3 material_normal() {
     float side = gl_FrontFacing ? 1.0 : draw_back_side;
-    vec3 normal = normalize(v_normal) * side;
+    vec3 normal = mesh_normal();
 #ifdef NORMAL_MAP
     vec2 xy = texture(normal_map, material_uv()).xy * 2.0 - 1.0;
     float z = sqrt(max(0.0, 1.0 - dot(xy, xy)));
