@@ -1,5 +1,7 @@
 #include "servers/radiosity/solver.h"
 
+#include "servers/gi/float4.h"
+
 #include "core/threads.h"
 
 #include <glm/common.hpp>
@@ -29,27 +31,33 @@ bool sky_reaches(const Transport& t, const Lighting& lighting, uint32_t patch) n
     return grid >= lighting.interior.size() || !lighting.interior[grid];
 }
 
-/// Mean radiance that a point's rays meet.
-glm::vec3 gather(const Links& links, const Links::Point& point, std::span<const glm::vec3> leaving,
-                 std::span<const glm::vec3> sky, bool with_sky) noexcept {
+/// How many of a point's links are read: all for what is seen, some for what only feeds later bounces.
+enum class Detail : uint8_t { All, Some };
+constexpr size_t kSomeLinks = 256;
+
+/// Sum over targets, some of them standing for all.
+glm::vec3 sum_over(std::span<const uint32_t> targets, std::span<const glm::vec3> radiance,
+                   Detail detail) noexcept {
+    const size_t stride = detail == Detail::All ? 1 : (targets.size() + kSomeLinks - 1) / kSomeLinks;
     glm::vec3 sum(0.0f);
-    for (uint32_t patch : links.patches_of(point)) {
-        sum += leaving[patch];
+    size_t count = 0;
+    for (size_t i = 0; i < targets.size(); i += std::max<size_t>(stride, 1), ++count) {
+        sum += radiance[targets[i]];
     }
-    if (with_sky) {
-        for (uint32_t bin : links.skies_of(point)) {
-            sum += sky[bin];
-        }
-    }
-    return point.ray_count > 0 ? sum / float(point.ray_count) : sum;
+    return count > 0 ? sum * (float(targets.size()) / float(count)) : sum;
 }
 
+/// Mean radiance that the rays of each record meet.
 std::vector<glm::vec3> gather_records(const Transport& t, const Lighting& lighting,
-                                      std::span<const glm::vec3> leaving) {
+                                      std::span<const glm::vec3> leaving, Detail detail) {
     std::vector<glm::vec3> arriving(t.records.patch.size());
     for_all(arriving.size(), [&](size_t r) {
-        arriving[r] = gather(t.records.links, t.records.links.points[r], leaving, lighting.sky,
-                             sky_reaches(t, lighting, t.records.patch[r]));
+        const Links::Point& point = t.records.links.points[r];
+        glm::vec3 sum = sum_over(t.records.links.patches_of(point), leaving, detail);
+        if (sky_reaches(t, lighting, t.records.patch[r])) {
+            sum += sum_over(t.records.links.skies_of(point), lighting.sky, detail);
+        }
+        arriving[r] = point.ray_count > 0 ? sum / float(point.ray_count) : sum;
     });
     return arriving;
 }
@@ -58,30 +66,67 @@ float largest(const glm::vec3& v) noexcept {
     return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
 
-/// Sums the bounces after the first: arriving = first + exchange * arriving, by Jacobi steps. They converge
-/// as albedos stay below 1.
+/// One more bounce: next = first + exchange * now.
+void step_bounce(const Transport& t, std::span<const glm::vec3> first, std::span<const gi::float4> now,
+                 std::span<gi::float4> next) {
+    for_all(next.size(), [&](size_t r) {
+        gi::float4 sum{first[r].x, first[r].y, first[r].z, 0.0f};
+        for (uint32_t e = t.exchange_first[r]; e < t.exchange_first[r + 1]; ++e) {
+            const Transport::Exchange& x = t.exchanges[e];
+            sum += gi::float4{x.albedo.x, x.albedo.y, x.albedo.z, 0.0f} * now[x.record];
+        }
+        next[r] = sum;
+    });
+}
+
+struct Progress {
+    double change = 0.0, total = 0.0; ///< sums over records of the largest channel
+};
+Progress compare(std::span<const gi::float4> before, std::span<const gi::float4> after) noexcept {
+    Progress p;
+    for (size_t r = 0; r < after.size(); ++r) {
+        const gi::float4 d = after[r] - before[r], v = after[r];
+        p.change += double(largest({d[0], d[1], d[2]}));
+        p.total += double(largest({v[0], v[1], v[2]}));
+    }
+    return p;
+}
+
+/// Sums the bounces after the first: the fixed point of step_bounce(), to which plain iteration converges as
+/// albedos stay below 1. Every fourth step goes as far as the changes' ratio says that all later ones would
+/// add up to (Aitken's extrapolation), which saves bright rooms most of their bounces.
 int bounce(const Transport& t, std::span<const glm::vec3> first, std::vector<glm::vec3>& arriving,
            const std::atomic<bool>& stop) {
-    std::vector<glm::vec3> next(arriving.size());
-    for (int n = 1; n <= kMaxBounces && !stop; ++n) {
-        for_all(next.size(), [&](size_t r) {
-            glm::vec3 sum = first[r];
-            for (uint32_t e = t.exchange_first[r]; e < t.exchange_first[r + 1]; ++e) {
-                sum += t.exchanges[e].albedo * arriving[t.exchanges[e].record];
+    std::vector<gi::float4> now, next(arriving.size());
+    for (const glm::vec3& a : arriving) {
+        now.push_back(gi::float4{a.x, a.y, a.z, 0.0f});
+    }
+    double last_change = 0.0;
+    int n = 1;
+    for (; n <= kMaxBounces && !stop; ++n) {
+        step_bounce(t, first, now, next);
+        const Progress p = compare(now, next);
+        const double ratio = last_change > 0.0 ? std::min(p.change / last_change, 0.98) : 0.0;
+        // What is still missing is this change times ratio / (1 - ratio).
+        const bool done = p.change * ratio <= double(kTolerance) * p.total * (1.0 - ratio) && n > 2;
+        if (n % 4 == 0 && !done) {
+            const gi::float4 ahead = gi::splat(float(ratio / (1.0 - ratio)));
+            for (size_t r = 0; r < next.size(); ++r) {
+                next[r] += ahead * (next[r] - now[r]);
             }
-            next[r] = sum;
-        });
-        double change = 0.0, total = 0.0;
-        for (size_t r = 0; r < next.size(); ++r) {
-            change += double(largest(next[r] - arriving[r]));
-            total += double(largest(next[r]));
+            last_change = 0.0; // the ratio of changes across a leap says nothing
+        } else {
+            last_change = p.change;
         }
-        arriving.swap(next);
-        if (change <= double(kTolerance) * total * 0.25) {
-            return n;
+        now.swap(next);
+        if (done || p.total == 0.0) {
+            break;
         }
     }
-    return kMaxBounces;
+    for (size_t r = 0; r < now.size(); ++r) {
+        arriving[r] = {now[r][0], now[r][1], now[r][2]};
+    }
+    return n;
 }
 
 std::vector<glm::vec3> at_patches(const Transport& t, std::span<const glm::vec3> at_records) {
@@ -180,12 +225,13 @@ glm::vec3 direct_light(const Source& s, const RayScene& rays, const glm::vec3& p
 Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<bool>& stop) {
     Solution s;
     const std::vector<glm::vec3> direct = direct_at_patches(t, lighting);
-    const std::vector<glm::vec3> first = gather_records(t, lighting, leaving_from(t, direct, {}));
+    const std::vector<glm::vec3> first =
+        gather_records(t, lighting, leaving_from(t, direct, {}), Detail::Some);
     std::vector<glm::vec3> arriving = first;
     s.bounces = bounce(t, first, arriving, stop);
     // The last bounce again, from patches instead of records: what is seen has the detail.
     const std::vector<glm::vec3> before_last = at_patches(t, arriving);
-    arriving = gather_records(t, lighting, leaving_from(t, direct, before_last));
+    arriving = gather_records(t, lighting, leaving_from(t, direct, before_last), Detail::All);
     s.arriving = at_patches(t, arriving);
     s.leaving = leaving_from(t, direct, s.arriving);
     for (size_t i = 0; i < t.air.size() && !stop; ++i) {

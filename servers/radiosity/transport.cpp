@@ -62,12 +62,19 @@ uint32_t main_record(const Records& records, uint32_t patch) noexcept {
     return heaviest == shares.end() ? kNoPatch : heaviest->record;
 }
 
+/// Later bounces are smooth: a few hundred of a point's links, evenly chosen, stand for all.
 std::vector<Transport::Exchange> exchanges_of(const Transport& t, const Links::Point& point) {
+    constexpr size_t kMostLinks = 256;
+    const std::span<const uint32_t> links = t.records.links.patches_of(point);
+    const size_t stride = (links.size() + kMostLinks - 1) / kMostLinks;
+    const size_t asked = stride > 0 ? (links.size() + stride - 1) / stride : 0;
     std::vector<Transport::Exchange> out;
-    for (uint32_t patch : t.records.links.patches_of(point)) {
+    for (size_t i = 0; i < asked; ++i) {
+        const uint32_t patch = links[i * stride];
         const uint32_t record = main_record(t.records, patch);
         if (record != kNoPatch) {
-            out.push_back({record, t.patches.albedo[patch] / float(point.ray_count)});
+            const float weight = float(links.size()) / (float(asked) * float(point.ray_count));
+            out.push_back({t.patches.albedo[patch] * weight, record});
         }
     }
     std::stable_sort(out.begin(), out.end(),

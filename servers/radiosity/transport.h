@@ -28,8 +28,8 @@ struct Transport {
     /// Light that a record gets from another one's surroundings: the sums of its links' albedos, which stand
     /// for every bounce after the first. A record has those in [first, next record's first).
     struct Exchange {
-        uint32_t record;
         glm::vec3 albedo; ///< sum over links / rays
+        uint32_t record;
     };
     std::vector<uint32_t> exchange_first;
     std::vector<Exchange> exchanges;
