@@ -159,6 +159,9 @@ void Stage::describe(Figures& figures) {
     if (!figures.probes.empty()) {
         figures.relight_ms = stats.relight_ms;
         figures.upload_ms = stats.upload_ms;
+        if (impl_->settings.gi_mode == GIMode::Auto && stats.transport_ms > 0.0) {
+            figures.bake_ms = figures.bake_ms.value_or(0.0) + stats.transport_ms;
+        }
     }
 }
 
