@@ -23,7 +23,7 @@ constexpr float kLeastArea_cells = 1e-5f;
 constexpr float kSameFacing = 0.8f;
 constexpr float kSamePlane_cells = 0.34f;
 constexpr float kOneLayer_cells = 0.02f;
-constexpr size_t kMaxCandidates = 20;
+constexpr size_t kMaxCandidates = 10;
 
 /// A piece of a triangle in a cell.
 struct Fragment {
