@@ -141,15 +141,11 @@ std::vector<glm::vec3> at_patches(const Transport& t, std::span<const glm::vec3>
     return out;
 }
 
-std::vector<glm::vec3> direct_at_patches(const Transport& t, const Lighting& lighting) {
+std::vector<glm::vec3> light_of(const Transport& t, const Source& source) {
     std::vector<glm::vec3> out(t.patches.size());
     for_all(out.size(), [&](size_t p) {
         const float lift_m = kLift * t.patches.grids[t.patches.grid[p]].cells.cell_m;
-        glm::vec3 sum(0.0f);
-        for (const Source& s : lighting.sources) {
-            sum += direct_light(s, t.rays, t.patches.position[p], t.patches.normal[p], lift_m);
-        }
-        out[p] = sum;
+        out[p] = direct_light(source, t.rays, t.patches.position[p], t.patches.normal[p], lift_m);
     });
     return out;
 }
@@ -222,9 +218,30 @@ glm::vec3 direct_light(const Source& s, const RayScene& rays, const glm::vec3& p
     return dark ? glm::vec3(0.0f) : factor * s.radiance;
 }
 
-Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<bool>& stop) {
+std::vector<glm::vec3> DirectCache::gather(const Transport& t, std::span<const Source> sources) {
+    std::vector<Known> kept;
+    std::vector<glm::vec3> sum(t.patches.size(), glm::vec3(0.0f));
+    for (const Source& source : sources) {
+        const auto found =
+            std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return k.source == source; });
+        Known light{source, found == known_.end() ? light_of(t, source) : std::move(found->at_patches)};
+        if (found != known_.end()) {
+            known_.erase(found); // a second light just like it is traced for itself
+        }
+        for_all(sum.size(), [&](size_t p) { sum[p] += light.at_patches[p]; });
+        if (kept.size() < kMostKnown) {
+            kept.push_back(std::move(light));
+        }
+    }
+    known_ = std::move(kept);
+    return sum;
+}
+
+Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<bool>& stop,
+               DirectCache* cache) {
     Solution s;
-    const std::vector<glm::vec3> direct = direct_at_patches(t, lighting);
+    DirectCache fresh;
+    const std::vector<glm::vec3> direct = (cache ? *cache : fresh).gather(t, lighting.sources);
     const std::vector<glm::vec3> first =
         gather_records(t, lighting, leaving_from(t, direct, {}), Detail::Some);
     std::vector<glm::vec3> arriving = first;

@@ -59,9 +59,28 @@ struct Solution {
 [[nodiscard]] glm::vec3 direct_light(const Source& source, const RayScene& rays, const glm::vec3& position,
                                      const glm::vec3& normal, float lift_m) noexcept;
 
+/// Light of each source at each patch, kept so that a change of one light costs the rays of one. For one
+/// transport.
+class DirectCache {
+public:
+    /// Light straight from all sources at each patch; what is new is traced, what is not in `sources` is
+    /// forgotten. Sums run in the order of the sources: the same numbers whatever was kept.
+    [[nodiscard]] std::vector<glm::vec3> gather(const Transport& transport, std::span<const Source> sources);
+
+private:
+    struct Known {
+        Source source;
+        std::vector<glm::vec3> at_patches;
+    };
+    static constexpr size_t kMostKnown =
+        32; ///< more are traced each time: memory is 12 bytes a patch and source
+    std::vector<Known> known_;
+};
+
 /// Lights the patches and lets the light bounce until less than a thousandth is missing.
 /// The same numbers for any number of threads. @param stop  gives up early with an unusable result
+/// @param cache  of this transport; null: none
 [[nodiscard]] Solution solve(const Transport& transport, const Lighting& lighting,
-                             const std::atomic<bool>& stop);
+                             const std::atomic<bool>& stop, DirectCache* cache = nullptr);
 
 } // namespace cl::radiosity

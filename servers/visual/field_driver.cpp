@@ -31,6 +31,7 @@ struct FieldDriver::Job {
     std::vector<StillItem> items; ///< of a new transport; else empty
     std::shared_ptr<const radiosity::Transport> transport;
     std::shared_ptr<const radiosity::FieldMap> map;
+    std::shared_ptr<radiosity::DirectCache> direct = std::make_shared<radiosity::DirectCache>();
     bool is_new = false; ///< transport and map are to be made
     bool glossy = false; ///< volumes are to be made
     // Made.
@@ -51,7 +52,7 @@ struct FieldDriver::Job {
         }
         bake_ms = is_new ? bake.elapsed_ms() : 0.0;
         const Timer solving;
-        const radiosity::Solution solution = radiosity::solve(*transport, lighting, stop);
+        const radiosity::Solution solution = radiosity::solve(*transport, lighting, stop, direct.get());
         if (!stop) {
             bounces = solution.bounces;
             light = radiosity::encode_field(*map, solution);
@@ -206,6 +207,7 @@ void FieldDriver::start(Field& field, Geometry geometry, radiosity::Lighting lig
     } else {
         job->transport = field.transport;
         job->map = field.map;
+        job->direct = field.direct;
     }
     job->geometry = std::move(geometry);
     job->lighting = std::move(lighting);
@@ -225,6 +227,7 @@ Status FieldDriver::take_in(Field& field) {
         field.upload = {};
         field.transport = job->transport;
         field.map = job->map;
+        field.direct = job->direct;
         field.geometry = job->geometry;
         bake_ms_ = job->bake_ms;
     }

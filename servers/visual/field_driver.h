@@ -77,6 +77,7 @@ private:
         Geometry geometry;
         std::shared_ptr<const radiosity::Transport> transport;
         std::shared_ptr<const radiosity::FieldMap> map;
+        std::shared_ptr<radiosity::DirectCache> direct; ///< of the transport; the job's while there is one
         radiosity::Lighting lighting;
         RID upload; ///< the rasteriser's
         /// What reflections see, one a probe; empty where nothing is glossy.
