@@ -64,6 +64,27 @@ void write_texel(const Texel& texel, uint8_t* pixel, PixelFormat format) {
     }
 }
 
+/// Bytes to bytes where each channel of the target is one of the source's or constant: no arithmetic, and the
+/// bytes that the way over floats would give. @return false for other pairs of formats
+bool copy_channels(const Image& from, PixelFormat to, std::vector<uint8_t>& out) {
+    const bool gray = from.format == PixelFormat::L8 || from.format == PixelFormat::LA8;
+    if (is_float_format(from.format) || (to != PixelFormat::RGB8 && to != PixelFormat::RGBA8)) {
+        return false;
+    }
+    const size_t in_step = static_cast<size_t>(channel_count(from.format));
+    const size_t out_step = static_cast<size_t>(channel_count(to));
+    for (size_t i = 0, o = 0; o < out.size(); i += in_step, o += out_step) {
+        for (size_t c = 0; c < 3; ++c) {
+            out[o + c] = gray ? from.data[i] : (c < in_step ? from.data[i + c] : uint8_t{0});
+        }
+        if (out_step == 4) {
+            const size_t alpha = gray ? 1 : 3;
+            out[o + 3] = alpha < in_step ? from.data[i + alpha] : uint8_t{255};
+        }
+    }
+    return true;
+}
+
 } // namespace
 
 Image Image::converted_to(PixelFormat to) const {
@@ -74,6 +95,9 @@ Image Image::converted_to(PixelFormat to) const {
     const auto to_step = static_cast<size_t>(bytes_per_pixel(to));
     const size_t pixels = data.size() / from_step;
     Image out{size, to, std::vector<uint8_t>(pixels * to_step)};
+    if (copy_channels(*this, to, out.data)) {
+        return out;
+    }
     for (size_t i = 0; i < pixels; ++i) {
         write_texel(read_texel(&data[i * from_step], format), &out.data[i * to_step], to);
     }

@@ -6,8 +6,10 @@
 #include "servers/mesh_surface.h"
 
 #include "core/io/log.h"
+#include "core/threads.h"
 
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -68,55 +70,103 @@ private:
     std::vector<BakeItem> items_;
 };
 
-/// Decoded surfaces and captured materials, each made once for all items that share them.
+/// Decoded surfaces and captured materials, each made once for all items that share them, on all workers.
 class BakeInputs {
 public:
-    /// nullptr, with a warning, if the surface's bytes are damaged.
-    const SurfaceArrays* arrays(const MeshSurface& surface) {
-        const auto known = arrays_.find(&surface);
-        if (known != arrays_.end()) {
-            return known->second.get();
+    explicit BakeInputs(const std::vector<BakeItem>& items) {
+        for (const BakeItem& item : items) {
+            const std::span<const MeshSurface> surfaces = item.mesh->surfaces();
+            for (size_t i = 0; i < surfaces.size(); ++i) {
+                if (surfaces[i].primitive == PrimitiveType::Triangles) {
+                    arrays_.try_emplace(&surfaces[i]);
+                    captures_.try_emplace(item.materials[i].get());
+                }
+            }
         }
-        std::unique_ptr<SurfaceArrays>& slot = arrays_[&surface];
-        Expected<SurfaceArrays> decoded = decode_surface(surface);
-        if (decoded) {
-            slot = std::make_unique<SurfaceArrays>(std::move(*decoded));
-        } else {
-            log_warning("GI bake: a surface is left out: " + decoded.error().message);
-        }
-        return slot.get();
+        decode_surfaces();
+        capture_materials();
     }
 
-    const gi::MaterialCapture* capture(const Ref<Material>& material) {
-        std::unique_ptr<gi::MaterialCapture>& slot = captures_[material.get()];
-        if (!slot) {
-            const BakeMaterial input = material ? material->bake_material() : BakeMaterial{};
-            slot = std::make_unique<gi::MaterialCapture>(gi::capture_material(input.input));
-        }
-        return slot.get();
+    /// nullptr if the surface is not one of triangles or its bytes are damaged.
+    [[nodiscard]] const SurfaceArrays* arrays(const MeshSurface& surface) const {
+        const auto known = arrays_.find(&surface);
+        return known != arrays_.end() ? known->second.get() : nullptr;
+    }
+    /// Of a surface that has arrays().
+    [[nodiscard]] const gi::MaterialCapture* capture(const Ref<Material>& material) const {
+        return captures_.at(material.get()).get();
     }
 
 private:
+    void decode_surfaces() {
+        const std::vector<const MeshSurface*> todo = keys(arrays_);
+        std::vector<std::unique_ptr<SurfaceArrays>> made(todo.size());
+        std::vector<std::string> errors(todo.size());
+        for_each_on_workers(todo.size(), [&](size_t i) {
+            Expected<SurfaceArrays> decoded = decode_surface(*todo[i]);
+            if (decoded) {
+                made[i] = std::make_unique<SurfaceArrays>(std::move(*decoded));
+            } else {
+                errors[i] = decoded.error().message;
+            }
+        });
+        for (size_t i = 0; i < todo.size(); ++i) {
+            arrays_[todo[i]] = std::move(made[i]);
+            if (!errors[i].empty()) {
+                log_warning("GI bake: a surface is left out: " + errors[i]);
+            }
+        }
+    }
+
+    void capture_materials() {
+        const std::vector<const Material*> todo = keys(captures_);
+        std::vector<BakeMaterial> inputs; // asked for on this thread: materials are not made for more
+        for (const Material* material : todo) {
+            inputs.push_back(material ? material->bake_material() : BakeMaterial{});
+        }
+        std::vector<std::unique_ptr<gi::MaterialCapture>> made(todo.size());
+        for_each_on_workers(todo.size(), [&](size_t i) {
+            made[i] = std::make_unique<gi::MaterialCapture>(gi::capture_material(inputs[i].input));
+        });
+        for (size_t i = 0; i < todo.size(); ++i) {
+            captures_[todo[i]] = std::move(made[i]);
+        }
+    }
+
+    template <typename Map>
+    static std::vector<typename Map::key_type> keys(const Map& map) {
+        std::vector<typename Map::key_type> out;
+        for (const auto& entry : map) {
+            out.push_back(entry.first);
+        }
+        return out;
+    }
+    template <typename F>
+    static void for_each_on_workers(size_t count, const F& f) {
+        parallel_for(count, 1, [&f](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                f(i);
+            }
+        });
+    }
+
     std::unordered_map<const MeshSurface*, std::unique_ptr<SurfaceArrays>> arrays_;
     std::unordered_map<const Material*, std::unique_ptr<gi::MaterialCapture>> captures_;
 };
 
-std::vector<gi::PlotSurface> plot_surfaces(const std::vector<BakeItem>& items, BakeInputs& inputs) {
+std::vector<gi::PlotSurface> plot_surfaces(const std::vector<BakeItem>& items, const BakeInputs& inputs) {
     std::vector<gi::PlotSurface> plots;
     for (const BakeItem& item : items) {
         const std::span<const MeshSurface> surfaces = item.mesh->surfaces();
         for (size_t i = 0; i < surfaces.size(); ++i) {
-            const bool is_triangles = surfaces[i].primitive == PrimitiveType::Triangles;
-            const SurfaceArrays* arrays = is_triangles ? inputs.arrays(surfaces[i]) : nullptr;
-            if (!arrays) {
-                continue;
+            if (const SurfaceArrays* arrays = inputs.arrays(surfaces[i])) {
+                plots.push_back({.local_from_mesh = item.probe_from_mesh,
+                                 .positions = arrays->positions,
+                                 .normals = arrays->normals,
+                                 .uvs = arrays->uvs,
+                                 .indices = arrays->indices,
+                                 .material = inputs.capture(item.materials[i])});
             }
-            plots.push_back({.local_from_mesh = item.probe_from_mesh,
-                             .positions = arrays->positions,
-                             .normals = arrays->normals,
-                             .uvs = arrays->uvs,
-                             .indices = arrays->indices,
-                             .material = inputs.capture(item.materials[i])});
         }
     }
     return plots;
@@ -147,7 +197,7 @@ Expected<BakeResult> bake_probe(const Node& start, const BakeRequest& request,
     }
     const std::vector<BakeItem> items =
         collect_bake_items(start, request.world_from_probe, request.extents_m);
-    BakeInputs inputs;
+    const BakeInputs inputs(items);
     const std::vector<gi::PlotSurface> plots = plot_surfaces(items, inputs);
     const Expected<gi::Octree> octree = gi::voxelize(*grid, plots, progress);
     if (!octree) {

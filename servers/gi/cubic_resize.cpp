@@ -52,7 +52,9 @@ uint8_t rounded_byte(double sum) {
 } // namespace
 
 Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
-    CL_ASSERT(image.format == PixelFormat::RGBA8 && image.size.x > 0 && image.size.y > 0, "an RGBA8 image");
+    CL_ASSERT(image.format == PixelFormat::RGBA8 || image.format == PixelFormat::RGB8, "bytes of a colour");
+    CL_ASSERT(image.size.x > 0 && image.size.y > 0, "an image with pixels");
+    const size_t channels = size_t(channel_count(image.format));
     CL_ASSERT(size.x > 0 && size.y > 0, "a size to resize to");
     Image out;
     out.size = size;
@@ -73,9 +75,10 @@ Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
                     const double weight = rows.weight[n] * column.weight[m];
                     const size_t at =
                         size_t(rows.source[n]) * size_t(image.size.x) + size_t(column.source[m]);
-                    for (size_t c = 0; c < 4; ++c) {
-                        sum[c] += image.data[at * 4 + c] * weight;
+                    for (size_t c = 0; c < channels; ++c) {
+                        sum[c] += image.data[at * channels + c] * weight;
                     }
+                    sum[3] += channels == 3 ? 255.0 * weight : 0.0;
                 }
             }
             for (const double channel : sum) {

@@ -12,6 +12,11 @@ bool has_pixels(const Image& image) {
 /// The texture as kCaptureSize^2 texels of RGBA8.
 Image captured_texels(const Image& texture) {
     constexpr glm::ivec2 kSize{kCaptureSize, kCaptureSize};
+    const bool is_color = texture.format == PixelFormat::RGB8 || texture.format == PixelFormat::RGBA8;
+    if (is_color && texture.size != kSize) {
+        return resize_cubic_rgba8(texture,
+                                  kSize); // reads a few texels of a large picture: no copy of it is made
+    }
     const Image rgba8 = texture.converted_to(PixelFormat::RGBA8);
     return rgba8.size == kSize ? rgba8 : resize_cubic_rgba8(rgba8, kSize);
 }
