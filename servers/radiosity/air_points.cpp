@@ -42,6 +42,22 @@ RayFan gather_near(const StillScene& scene, const RayScene& rays, const Patches&
     return {};
 }
 
+/// AirPoints::reach of a point in the open.
+std::array<float, 6> reach_from(const RayScene& rays, const CellGrid& grid, const glm::vec3& at) {
+    std::array<Ray, 6> asked;
+    for (int side = 0; side < 6; ++side) {
+        const glm::vec3 axis = glm::normalize(grid.world_from_cells.basis[side / 2]);
+        asked[size_t(side)] = {at, side % 2 == 0 ? -axis : axis, AirPoints::kMaxReach * grid.cell_m};
+    }
+    std::array<Hit, 6> hits;
+    rays.trace(asked, hits);
+    std::array<float, 6> reach{};
+    for (size_t side = 0; side < 6; ++side) {
+        reach[side] = hits[side].triangle == kMiss ? AirPoints::kMaxReach : hits[side].t / grid.cell_m;
+    }
+    return reach;
+}
+
 /// Each point in a solid shows the nearest one that is not, so that filtering finds light on every side.
 std::vector<uint32_t> spread(const Links& links, const glm::ivec3& dims) {
     std::vector<uint32_t> stand_in(links.points.size(), kNoPoint);
@@ -85,12 +101,17 @@ AirPoints make_air_points(const StillScene& scene, const RayScene& rays, const P
         air.directions.push_back(sphere_direction(r2_point(i, glm::vec2(0.5f))));
     }
     std::vector<RayFan> fans(size_t(air.dims.x) * size_t(air.dims.y) * size_t(air.dims.z));
+    air.reach.resize(fans.size());
     parallel_for(fans.size(), 64, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const int n = int(i);
             const glm::ivec3 brick(n % air.dims.x, n / air.dims.x % air.dims.y,
                                    n / (air.dims.x * air.dims.y));
-            fans[i] = gather_near(scene, rays, patches, grid, glm::vec3(brick * 4 + 2), air.directions);
+            const glm::vec3 centre(brick * 4 + 2);
+            fans[i] = gather_near(scene, rays, patches, grid, centre, air.directions);
+            if (fans[i].ray_count > 0) {
+                air.reach[i] = reach_from(rays, grid, grid.world_from_cells.xform(centre));
+            }
         }
     });
     for (const RayFan& f : fans) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct AirPoints {
     Links links;                       ///< a point each, x fastest; of points inside solids without rays
     std::vector<glm::vec3> directions; ///< of the rays, the same at each point: neighbours err alike
     std::vector<uint8_t> rays;         ///< which of them each link is, one for one with links.targets
+    /// How far each point sees along the grid's axes before a surface [cells], at most kMaxReach: -x, +x, -y,
+    /// +y, -z, +z. 0 for points inside solids. What lies beyond is not lit by the point.
+    std::vector<std::array<float, 6>> reach;
+    static constexpr float kMaxReach = 7.75f;
     std::vector<uint32_t>
         stand_in; ///< for each point, the point whose light it shows: itself, or one in the open
 };

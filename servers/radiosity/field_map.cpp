@@ -142,6 +142,13 @@ void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) 
     }
 }
 
+/// Reach along an axis to both sides, quarters of a cell: 32 * below + above, a number that a half holds
+/// exactly.
+float packed_reach(const std::array<float, 6>& reach, int axis) noexcept {
+    const auto quarters = [](float cells) { return std::floor(std::clamp(cells * 4.0f, 0.0f, 31.0f)); };
+    return 32.0f * quarters(reach[size_t(axis) * 2]) + quarters(reach[size_t(axis) * 2 + 1]);
+}
+
 } // namespace
 
 FieldMap make_field_map(const Transport& transport) {
@@ -171,7 +178,7 @@ std::vector<uint32_t> encode_field(const FieldMap& map, const Solution& solution
     return out;
 }
 
-std::vector<uint16_t> encode_air(const FieldMap& map, const Solution& solution) {
+std::vector<uint16_t> encode_air(const Transport& transport, const FieldMap& map, const Solution& solution) {
     std::vector<uint16_t> out(size_t(map.air.x) * size_t(map.air.y) * size_t(map.air.z) * 4);
     for (size_t p = 0; p < map.probes.size(); ++p) {
         const glm::ivec3 dims = map.probes[p].bricks;
@@ -186,6 +193,9 @@ std::vector<uint16_t> encode_air(const FieldMap& map, const Solution& solution) 
                 for (int channel = 0; channel < 3; ++channel) {
                     out[texel * 4 + size_t(channel)] =
                         glm::packHalf1x16(glm::clamp(v[channel], -kMaxRadiance, kMaxRadiance));
+                }
+                if (slab > 0) {
+                    out[texel * 4 + 3] = glm::packHalf1x16(packed_reach(transport.air[p].reach[i], slab - 1));
                 }
             }
         }

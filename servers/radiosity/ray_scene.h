@@ -34,6 +34,8 @@ class RayScene {
 public:
     /// The scene must outlive it. @return OutOfMemory or Unsupported with the library's word for it.
     static Expected<RayScene> create(const StillScene& scene);
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
     ~RayScene();

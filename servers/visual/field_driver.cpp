@@ -56,7 +56,7 @@ struct FieldDriver::Job {
         if (!stop) {
             bounces = solution.bounces;
             light = radiosity::encode_field(*map, solution);
-            air = radiosity::encode_air(*map, solution);
+            air = radiosity::encode_air(*transport, *map, solution);
             for (size_t i = 0; glossy && i < transport->probe_count; ++i) {
                 volumes.push_back(radiosity::make_radiance_volume(*transport, i, solution));
             }

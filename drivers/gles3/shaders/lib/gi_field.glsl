@@ -97,13 +97,33 @@ vec3 air_slab(GIProbe probe, vec3 at, int slab) {
     return textureLod(field_air, texel / size, 0.0).rgb;
 }
 
-/// Light that a surface turned to `normal` (world space) would receive in the air.
+/// Light that a surface turned to `normal` (world space) would receive in the air: from the 8 points around, of those
+/// that reach it before they meet a wall.
 vec3 air_light(GIProbe probe, vec3 at, vec3 normal) {
-    vec3 light = air_slab(probe, at, 0);
-    light += 2.0 * normal.x * air_slab(probe, at, 1);
-    light += 2.0 * normal.y * air_slab(probe, at, 2);
-    light += 2.0 * normal.z * air_slab(probe, at, 3);
-    return max(light, vec3(0.0));
+    vec3 place = at * 0.25 - 0.5;
+    vec3 corner = floor(place);
+    vec3 f = place - corner;
+    ivec3 last = probe.field_bricks - 1;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 8; ++i) {
+        ivec3 step = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        ivec3 point = clamp(ivec3(corner) + step, ivec3(0), last);
+        ivec3 texel = point + ivec3(0, 0, probe.field_air_z);
+        vec4 mean = texelFetch(field_air, texel, 0);
+        vec4 x = texelFetch(field_air, texel + ivec3(0, 0, probe.field_bricks.z), 0);
+        vec4 y = texelFetch(field_air, texel + ivec3(0, 0, 2 * probe.field_bricks.z), 0);
+        vec4 z = texelFetch(field_air, texel + ivec3(0, 0, 3 * probe.field_bricks.z), 0);
+        vec3 reach = vec3(x.a, y.a, z.a);
+        vec3 apart = at - (vec3(point) * 4.0 + 2.0);
+        vec3 below = floor(reach / 32.0);
+        vec3 allowed = mix(reach - 32.0 * below, below, vec3(lessThan(apart, vec3(0.0)))) * 0.25;
+        bool reaches = all(lessThanEqual(abs(apart), allowed + 0.25));
+        vec3 w = mix(1.0 - f, f, vec3(step));
+        float weight = w.x * w.y * w.z * (reaches ? 1.0 : 1e-4) + 1e-8;
+        vec3 light = mean.rgb + 2.0 * (normal.x * x.rgb + normal.y * y.rgb + normal.z * z.rgb);
+        sum += vec4(max(light, vec3(0.0)), 1.0) * weight;
+    }
+    return sum.rgb / sum.a;
 }
 
 /// How much more light the bumped normal receives than the mesh's: as far as the air can tell (world space).
