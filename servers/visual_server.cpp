@@ -13,6 +13,7 @@ VisualServer::~VisualServer() = default;
 
 void VisualServer::set_settings(const RenderSettings& settings) {
     impl_->settings = settings;
+    impl_->fields.set_quality(settings.quality);
 }
 const RenderSettings& VisualServer::settings() const {
     return impl_->settings;

@@ -43,7 +43,7 @@ std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeB
     std::vector<CellGrid> grids;
     AABB all = transformed(probes[0].world_from_probe, probes[0].box);
     for (const ProbeBox& p : probes) {
-        grids.push_back(grid_of_box(p.world_from_probe, p.box, kProbeCells));
+        grids.push_back(grid_of_box(p.world_from_probe, p.box, p.cells));
         all = all.merged(transformed(p.world_from_probe, p.box));
     }
     const AABB bounds = bounds_of(scene);

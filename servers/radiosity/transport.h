@@ -41,10 +41,8 @@ struct Transport {
 struct ProbeBox {
     Transform world_from_probe; ///< orthonormal
     AABB box;                   ///< [m]
+    int cells = 128;            ///< of its grid along the longest axis
 };
-
-/// Cells of the grids of probes: the longest axis in kProbeCells.
-inline constexpr int kProbeCells = 128;
 
 /// @param stop  give up as soon as it turns true. @return Cancelled, or what Embree says.
 [[nodiscard]] Expected<std::shared_ptr<const Transport>>

@@ -70,7 +70,7 @@ struct FieldDriver::Job {
         items.clear();
         std::vector<radiosity::ProbeBox> boxes;
         for (const ProbeKey& p : geometry.probes) {
-            boxes.push_back({p.world_from_probe, p.box});
+            boxes.push_back({p.world_from_probe, p.box, geometry.quality == Quality::High ? 128 : 64});
         }
         auto made = radiosity::make_transport(std::move(scene), boxes, stop);
         if (!made) {
@@ -135,6 +135,7 @@ bool FieldDriver::rests(RID rid, uint64_t look, Rest rest) {
 
 FieldDriver::Geometry FieldDriver::wanted_geometry(RID scenario, Rest rest) {
     Geometry geometry;
+    geometry.quality = quality_;
     for (RID rid : instances_.probes()) {
         const Instance& instance = *instances_.get(rid);
         const GIProbe* probe = storage_.gi_probes.get(instance.base);

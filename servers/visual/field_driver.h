@@ -35,6 +35,8 @@ public:
 
     /// When things count as resting.
     enum class Rest : uint8_t { AfterSteps, AtOnce };
+    /// How finely patches are cut: 128 cells along a probe's longest axis, or 64.
+    void set_quality(Quality quality) noexcept { quality_ = quality; }
     /// Takes in what the worker finished and gives it what changed. Instances must be up to date.
     Status step(Rest rest = Rest::AfterSteps);
     /// False while a step with Rest::AtOnce would do anything, now or once the worker is done.
@@ -69,6 +71,7 @@ private:
     struct Geometry {
         std::vector<ProbeKey> probes;
         std::vector<ItemKey> items;
+        Quality quality = Quality::High;
         friend bool operator==(const Geometry&, const Geometry&) = default;
     };
     /// Work for the worker and what comes of it. Shared, so that neither side waits when the other goes.
@@ -107,6 +110,7 @@ private:
     std::unordered_map<RID, Field> fields_; ///< by scenario
     std::unordered_map<RID, Restless> seen_;
     uint64_t step_ = 0;
+    Quality quality_ = Quality::High;
     double bake_ms_ = 0.0, relight_ms_ = 0.0, upload_ms_ = 0.0;
 };
 
