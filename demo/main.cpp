@@ -17,6 +17,8 @@ int run(const cl::demo::Options& options) {
         return cl::demo::run_live(options);
     case cl::demo::Command::Bake:
         return cl::demo::run_bake(options);
+    case cl::demo::Command::Reference:
+        return cl::demo::run_reference(options);
     case cl::demo::Command::Inspect:
         return cl::demo::run_inspect(options);
     case cl::demo::Command::Bench:

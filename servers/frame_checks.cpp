@@ -37,6 +37,11 @@ Status RasterizerChecked::check_frame(const Frame& frame) const {
             return valid;
         }
     }
+    for (const WorldItem& item : frame.world) {
+        if (Status valid = check_surface(item.mesh, item.surface, item.material); !valid) {
+            return valid;
+        }
+    }
     for (const GIProbeShading& probe : frame.gi_probes) {
         if (Status valid = check_probe(probe); !valid) {
             return valid;

@@ -76,6 +76,17 @@ struct CasterItem {
     uint64_t version = 0; ///< changes when the item would cast another shadow
 };
 
+/// One surface as it stands in the world, in view or not.
+struct WorldItem {
+    RID mesh;
+    int surface = 0;
+    const MaterialDesc* material = nullptr; ///< never null; lives as long as the Frame
+    Transform world_from_local;
+    bool mirrored = false; ///< as in DrawItem
+    uint32_t layers = 1;   ///< for the cull masks of camera and lights
+    ShadowCasting casting = ShadowCasting::On;
+};
+
 struct LightItem {
     RID key; ///< the light's instance: stable between frames, for caches
     const LightDesc* desc = nullptr;
@@ -85,6 +96,12 @@ struct LightItem {
 };
 
 inline constexpr int kMaxDirectionalLights = 16; ///< spec scene-classes section 8
+
+/// What a rasteriser wants in its Frames.
+enum class FrameContents : uint8_t {
+    InView,     ///< sorted items in the camera's view, what lights them, their casters and GI probes
+    WholeScene, ///< every surface (Frame::world) and every light: for backends that follow light themselves
+};
 
 /// All that one picture needs. Pointers and spans live until draw() returns.
 struct Frame {
@@ -97,7 +114,9 @@ struct Frame {
     std::span<const DrawItem> transparent; ///< sorted by priority, then back to front
     std::span<const LightItem> lights;     ///< directional ones first
     int directional_count = 0;             ///< at most kMaxDirectionalLights
-    AABB casters_bounds;                   ///< world bounds of what casts directional shadows
+    std::span<const WorldItem>
+        world;           ///< WholeScene only, which has no opaque, transparent, casters, gi_probes
+    AABB casters_bounds; ///< world bounds of what casts directional shadows
     std::span<const GIProbeShading> gi_probes;
     GIMode gi_mode = GIMode::Cones;
     Quality quality = Quality::High;
@@ -114,12 +133,15 @@ struct FrameStats {
     int draw_calls = 0;
     int64_t triangles = 0;
     double gpu_ms = 0.0; ///< wall time of the draw until its pixels were done
+    int64_t rays = 0;    ///< followed through the scene, by backends that do
 };
 
 class Rasterizer {
 public:
     virtual ~Rasterizer() = default;
     [[nodiscard]] virtual RasterizerInfo info() const = 0;
+    /// What draw() is to be given. GI probes do no work for a backend that wants the whole scene.
+    [[nodiscard]] virtual FrameContents frame_contents() const { return FrameContents::InView; }
 
     /// Uploads an image (8 bit or float). `space` says whether 8-bit texels are decoded from sRGB on
     /// sampling.

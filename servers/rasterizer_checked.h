@@ -16,6 +16,7 @@ public:
     explicit RasterizerChecked(std::unique_ptr<Rasterizer> backend);
 
     [[nodiscard]] RasterizerInfo info() const override { return backend_->info(); }
+    [[nodiscard]] FrameContents frame_contents() const override { return backend_->frame_contents(); }
     Expected<RID> texture_create(const Image& image, const TextureParams& params,
                                  TextureColorSpace space) override;
     Expected<RID> mesh_create(std::span<const MeshSurface> surfaces) override;

@@ -30,6 +30,9 @@ enum class CullMode : uint8_t { Back, Front, Disabled };
 enum class DepthDrawMode : uint8_t { OpaqueOnly, Always, Never, AlphaOpaquePrepass };
 enum class EmissionOperator : uint8_t { Add, Multiply };
 
+/// How an instance shows in shadows. ShadowsOnly: there and nowhere else.
+enum class ShadowCasting : uint8_t { Off, On, DoubleSided, ShadowsOnly };
+
 /// A SpatialMaterial. Texture RIDs are null when not set.
 struct MaterialDesc {
     bool is_default = false; ///< no material at all: white Lambert, no direct specular (spec section 4)

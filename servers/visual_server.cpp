@@ -25,12 +25,19 @@ Rasterizer& VisualServer::rasterizer() {
     return *impl_->rasterizer;
 }
 
-/// Each way of finding indirect light keeps its own state, and only the one in use costs anything.
+/// Each way of finding indirect light keeps its own state, and only the one in use costs anything: none under a
+/// rasteriser that follows light itself.
 Status VisualServer::Impl::step_gi(FieldDriver::Rest rest) {
+    if (rasterizer->frame_contents() == FrameContents::WholeScene) {
+        return {};
+    }
     return settings.gi_mode == GIMode::Auto ? fields.step(rest) : probes.step();
 }
 
 bool VisualServer::Impl::gi_is_settled() {
+    if (rasterizer->frame_contents() == FrameContents::WholeScene) {
+        return true;
+    }
     return settings.gi_mode == GIMode::Auto ? fields.is_settled() : probes.is_settled();
 }
 

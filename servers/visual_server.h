@@ -17,8 +17,6 @@
 
 namespace cl {
 
-enum class ShadowCasting : uint8_t { Off, On, DoubleSided, ShadowsOnly };
-
 struct RenderSettings {
     GIMode gi_mode = GIMode::Auto;
     Quality quality = Quality::High;

@@ -85,7 +85,10 @@ Status VisualServer::Impl::draw_viewport(Viewport& viewport) {
         return ready;
     }
     FirstError errors;
-    const View view{.size = viewport.size, .scenario = viewport.scenario, .camera = viewport.camera};
+    const View view{.size = viewport.size,
+                    .scenario = viewport.scenario,
+                    .camera = viewport.camera,
+                    .contents = rasterizer->frame_contents()};
     const Status drawn = rasterizer->draw(viewport.target, frames.build(view, settings, errors));
     viewport.drawn = viewport.drawn || drawn.ok();
     errors.note(drawn);

@@ -16,6 +16,7 @@ inline constexpr int kNoDriver = 3;
 [[nodiscard]] int run_render(const Options& options);
 [[nodiscard]] int run_live(const Options& options);
 [[nodiscard]] int run_bake(const Options& options);
+[[nodiscard]] int run_reference(const Options& options);
 [[nodiscard]] int run_inspect(const Options& options);
 [[nodiscard]] int run_bench(const Options& options);
 

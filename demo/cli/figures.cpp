@@ -29,6 +29,14 @@ Json probe_json(const ProbeFigures& probe) {
             {"bytes", probe.bytes}};
 }
 
+Json path_json(const PathFigures& p) {
+    return {{"spp", p.samples},
+            {"depth", p.depth},
+            {"seed", p.seed},
+            {"rays", p.rays},
+            {"rays_per_s", p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0}};
+}
+
 int64_t now_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::steady_clock::now().time_since_epoch())
@@ -42,26 +50,29 @@ std::string to_json(const Figures& f) {
     for (const ProbeFigures& probe : f.probes) {
         probes.push_back(probe_json(probe));
     }
-    const Json json = {{"conelight", kVersion},
-                       {"scene", f.scene},
-                       {"driver", f.driver},
-                       {"renderer", f.renderer},
-                       {"size", {f.size.x, f.size.y}},
-                       {"gi", f.gi},
-                       {"threads", f.threads},
-                       {"load_ms", number_or_null(f.load_ms)},
-                       {"bake_ms", number_or_null(f.bake_ms)},
-                       {"relight_ms", number_or_null(f.relight_ms)},
-                       {"upload_ms", number_or_null(f.upload_ms)},
-                       {"frame_ms", number_or_null(f.frame_ms)},
-                       {"gi_ms", number_or_null(f.gi_ms)},
-                       {"total_ms", number_or_null(f.total_ms)},
-                       {"peak_rss_mib", f.peak_rss_mib},
-                       {"probes", probes},
-                       {"draw_calls", f.draw_calls},
-                       {"triangles", f.triangles},
-                       {"lights", f.lights},
-                       {"warnings", f.warnings}};
+    Json json = {{"conelight", kVersion},
+                 {"scene", f.scene},
+                 {"driver", f.driver},
+                 {"renderer", f.renderer},
+                 {"size", {f.size.x, f.size.y}},
+                 {"gi", f.gi},
+                 {"threads", f.threads},
+                 {"load_ms", number_or_null(f.load_ms)},
+                 {"bake_ms", number_or_null(f.bake_ms)},
+                 {"relight_ms", number_or_null(f.relight_ms)},
+                 {"upload_ms", number_or_null(f.upload_ms)},
+                 {"frame_ms", number_or_null(f.frame_ms)},
+                 {"gi_ms", number_or_null(f.gi_ms)},
+                 {"total_ms", number_or_null(f.total_ms)},
+                 {"peak_rss_mib", f.peak_rss_mib},
+                 {"probes", probes},
+                 {"draw_calls", f.draw_calls},
+                 {"triangles", f.triangles},
+                 {"lights", f.lights},
+                 {"warnings", f.warnings}};
+    if (f.paths) {
+        json["paths"] = path_json(*f.paths);
+    }
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -22,6 +22,13 @@ struct ProbeFigures {
     uint64_t bytes = 0;            ///< of the data as stored
 };
 
+struct PathFigures {
+    int samples = 0, depth = 0;
+    uint32_t seed = 0;
+    int64_t rays = 0;
+    double seconds = 0.0; ///< that the rays took
+};
+
 /// The figures of a run, as `--stats` and `bench --json` write them. Times in milliseconds; a step that did
 /// not run is none and becomes null.
 struct Figures {
@@ -31,6 +38,7 @@ struct Figures {
     std::optional<double> load_ms, bake_ms, relight_ms, upload_ms, frame_ms, gi_ms, total_ms;
     double peak_rss_mib = 0.0;
     std::vector<ProbeFigures> probes;
+    std::optional<PathFigures> paths; ///< of `reference`
     int draw_calls = 0;
     int64_t triangles = 0;
     int lights = 0;

@@ -66,7 +66,7 @@ void add_scene(CLI::App& app, Options& o) {
         ->type_name("PATH:PROPERTY=VALUE");
 }
 
-void add_drawing(CLI::App& app, Options& o) {
+void add_view(CLI::App& app, Options& o) {
     add_scene(app, o);
     app.add_option_function<std::string>(
            "--size",
@@ -79,6 +79,11 @@ void add_drawing(CLI::App& app, Options& o) {
            },
            "pixels (default: the project's setting, else 1024x600)")
         ->type_name("WxH");
+    app.add_option("--camera", o.camera_path, "node path of the camera (default: the current one)");
+}
+
+void add_drawing(CLI::App& app, Options& o) {
+    add_view(app, o);
     app.add_option("--gi", o.gi_mode,
                    "global illumination: off, cones (Godot 3.2's) or auto (the best there is)")
         ->transform(CLI::CheckedTransformer(kGIModes))
@@ -86,7 +91,6 @@ void add_drawing(CLI::App& app, Options& o) {
     app.add_option("--quality", o.quality, "low (4 cones) or high (6 cones)")
         ->transform(CLI::CheckedTransformer(kQualities))
         ->type_name("low|high");
-    app.add_option("--camera", o.camera_path, "node path of the camera (default: the current one)");
     app.add_option("--driver", o.driver, "where the GL context comes from: osmesa, egl or window")
         ->check(CLI::IsMember({"osmesa", "egl", "window"}))
         ->type_name("NAME");
@@ -96,15 +100,19 @@ void add_stats(CLI::App& app, Options& o) {
     app.add_option("--stats", o.stats_file, "write the run's figures as JSON")->type_name("FILE");
 }
 
+void add_outputs(CLI::App& app, Options& o) {
+    app.add_option("-o,--output", o.outputs, ".png (8-bit sRGB) or .exr (linear radiance); repeatable")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("FILE");
+}
+
 void add_render(CLI::App& app, Options& o) {
     CLI::App* c = app.add_subcommand("render", "load, bake what is unbaked, light, draw, write the picture");
     add_common(*c, o, "SCENE");
     add_drawing(*c, o);
     add_stats(*c, o);
-    c->add_option("-o,--output", o.outputs, ".png (8-bit sRGB) or .exr (linear radiance); repeatable")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->type_name("FILE");
+    add_outputs(*c, o);
     c->add_option("--frames", o.frames,
                   "frames drawn before the picture is taken (default: enough to settle)")
         ->check(CLI::Range(1, 1'000'000));
@@ -142,6 +150,20 @@ void add_bake(CLI::App& app, Options& o) {
     c->callback([&o] { o.command = Command::Bake; });
 }
 
+void add_reference(CLI::App& app, Options& o) {
+    CLI::App* c =
+        app.add_subcommand("reference", "path-traced truth of the same camera and lights; no GPU, no probes");
+    add_common(*c, o, "SCENE");
+    add_view(*c, o);
+    add_stats(*c, o);
+    add_outputs(*c, o);
+    c->add_option("--spp", o.samples, "paths a pixel (default 256)")->check(CLI::Range(1, 1 << 24));
+    c->add_option("--depth", o.depth, "most reflections of a path, 0: emission alone (default 64)")
+        ->check(CLI::Range(0, 100'000));
+    c->add_option("--seed", o.seed, "of the random numbers: same seed, same picture (default 0)");
+    c->callback([&o] { o.command = Command::Reference; });
+}
+
 void add_inspect(CLI::App& app, Options& o) {
     CLI::App* c = app.add_subcommand("inspect", "what is in a scene, resource or probe");
     add_common(*c, o, "FILE");
@@ -170,6 +192,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
     add_render(app, o);
     add_run(app, o);
     add_bake(app, o);
+    add_reference(app, o);
     add_inspect(app, o);
     add_bench(app, o);
     try {

@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace cl::demo {
 
-enum class Command { Render, Run, Bake, Inspect, Bench };
+enum class Command { Render, Run, Bake, Reference, Inspect, Bench };
 enum class Verbosity { Quiet, Normal, Verbose };
 
 /// `--set PATH:PROPERTY=VALUE`, split but not yet read.
@@ -45,6 +46,11 @@ struct Options {
     std::filesystem::path output_dir;
     bool embed = false;
     bool compat = false;
+
+    // reference
+    int samples = 256; ///< paths a pixel
+    int depth = 64;    ///< most reflections of a path
+    uint32_t seed = 0;
 
     // inspect
     bool as_json = false;

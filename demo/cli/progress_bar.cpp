@@ -15,8 +15,13 @@ ProgressBar::ProgressBar(std::string title, Verbosity verbosity)
     : title_(std::move(title)), visible_(verbosity != Verbosity::Quiet && isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
+    clear();
+}
+
+void ProgressBar::clear() {
     if (visible_ && last_percent_ >= 0) {
         std::fputs("\r\x1b[K", stderr); // to the line's start, and erase it
+        last_percent_ = -1;
     }
 }
 

@@ -11,11 +11,12 @@ namespace cl::demo {
 class ProgressBar {
 public:
     ProgressBar(std::string title, Verbosity verbosity);
-    ~ProgressBar(); ///< removes the line
+    ~ProgressBar(); ///< as clear()
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     /// @param share  done so far, 0 to 1
     void show(float share);
+    void clear(); ///< removes the line, so that others can be written
 
 private:
     std::string title_;

@@ -1,13 +1,11 @@
 #include "demo/cli/commands.h"
 #include "demo/cli/figures.h"
+#include "demo/cli/pictures.h"
 #include "demo/cli/scene_loading.h"
 #include "demo/cli/stage.h"
 
-#include "scene/3d/world.h"
-
 #include "servers/visual_server.h"
 
-#include "core/image.h"
 #include "core/io/log.h"
 
 #include <fmt/format.h>
@@ -23,42 +21,12 @@ constexpr double kFrame_s = 1.0 / 60.0;
 constexpr int kTimedFrames =
     3; // for --stats: the median of an odd few is enough, one frame may take a second
 
-bool is_exr(const std::filesystem::path& path) {
-    return path.extension() == ".exr";
-}
-
-/// Nothing is drawn for a picture that could not be written anyway.
-Status check_outputs(const std::vector<std::filesystem::path>& outputs) {
-    for (const std::filesystem::path& path : outputs) {
-        if (path.extension() != ".png" && !is_exr(path)) {
-            return Error{
-                ErrorCode::Unsupported,
-                fmt::format("expected an output file that ends in .png or .exr, found {}", path.string())};
-        }
-    }
-    return {};
-}
-
 Status draw_frames(Stage& stage, const Options& options) {
     for (int frame = 0; frame < options.frames.value_or(1); ++frame) {
         stage.tree().step(kFrame_s);
         stage.server().settle(); // what is drawn has all its light: pictures do not depend on the frame count
         if (Status drawn = stage.tree().draw(); !drawn) {
             return drawn;
-        }
-    }
-    return {};
-}
-
-Status save_pictures(Stage& stage, const Options& options) {
-    for (const std::filesystem::path& path : options.outputs) {
-        const TargetFormat format = is_exr(path) ? TargetFormat::LinearFloat : TargetFormat::Srgb8;
-        Expected<Image> image = stage.server().viewport_read(stage.tree().world().viewport(), format);
-        if (!image) {
-            return image.error();
-        }
-        if (Status saved = save_image(*image, path); !saved) {
-            return saved;
         }
     }
     return {};
@@ -71,7 +39,7 @@ Status make_pictures(Stage& stage, std::unique_ptr<scene::Node> root, const Opti
     if (Status drawn = draw_frames(stage, options); !drawn) {
         return drawn;
     }
-    return save_pictures(stage, options);
+    return save_pictures(stage.tree(), options.outputs);
 }
 
 Expected<double> median_frame_ms(Stage& stage) {

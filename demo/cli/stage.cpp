@@ -1,7 +1,7 @@
 #include "demo/cli/stage.h"
 
-#include "scene/3d/camera.h"
-#include "scene/3d/mesh_instance.h"
+#include "demo/cli/scene_camera.h"
+
 #include "scene/3d/world.h"
 
 #include "drivers/gl_context.h"
@@ -12,13 +12,6 @@
 
 #include "core/io/log.h"
 #include "core/threads.h"
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
-#include <cmath>
-#include <optional>
 
 namespace cl::demo {
 
@@ -44,32 +37,6 @@ RenderSettings render_settings(const Options& options, const scene::ProjectSetti
     s.shadow_atlas_size = settings.shadow_atlas_size;
     s.directional_shadow_size = settings.directional_shadow_size;
     return s;
-}
-
-/// Box around everything visible, in world space [m].
-std::optional<AABB> visible_bounds(scene::Node& root) {
-    std::optional<AABB> bounds;
-    root.for_each_in_subtree([&bounds](scene::Node& node) {
-        const auto* instance = dynamic_cast<scene::MeshInstance*>(&node);
-        if (instance && instance->mesh() && instance->is_visible_in_tree()) {
-            const AABB box = transformed(instance->global_transform(), instance->mesh()->aabb());
-            bounds = bounds ? bounds->merged(box) : box;
-        }
-    });
-    return bounds;
-}
-
-/// A camera that has the whole scene in view, from the front, a little above and to the right.
-void add_framing_camera(scene::Node& root) {
-    const AABB bounds = visible_bounds(root).value_or(AABB{glm::vec3(-1.0f), glm::vec3(2.0f)});
-    auto& camera = root.add_new<scene::Camera>("FramingCamera");
-    const float radius_m = std::max(0.5f * glm::length(bounds.size), 1e-3f);
-    const float distance_m = radius_m / std::sin(0.5f * glm::radians(camera.fov()));
-    camera.set_near(0.01f * radius_m);
-    camera.set_far(distance_m + 2.0f * radius_m);
-    camera.set_translation(bounds.center() + glm::normalize(glm::vec3(0.5f, 0.35f, 1.0f)) * distance_m);
-    camera.look_at(bounds.center());
-    camera.make_current();
 }
 
 } // namespace
@@ -110,18 +77,7 @@ Status Stage::show(std::unique_ptr<scene::Node> root, const Options& options) {
     if (Status shown = tree().set_scene(std::move(root)); !shown) {
         return shown;
     }
-    if (!options.camera_path.empty()) {
-        auto* camera = scene_root.get_node_as<scene::Camera>(options.camera_path);
-        if (!camera) {
-            return Error{ErrorCode::NotFound, fmt::format("--camera: expected the path of a Camera, found {}",
-                                                          options.camera_path)};
-        }
-        camera->make_current();
-    }
-    if (!tree().world().current_camera()) {
-        add_framing_camera(scene_root);
-    }
-    return {};
+    return choose_camera(tree(), scene_root, options);
 }
 
 scene::SceneTree& Stage::tree() noexcept {

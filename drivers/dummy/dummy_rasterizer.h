@@ -45,8 +45,9 @@ struct RecordedFrame {
     std::vector<LightItem> lights;                ///< casters: spans are empty, see below
     std::vector<std::vector<CasterItem>> casters; ///< of each light
     std::vector<GIProbeShading> gi_probes;
+    std::vector<WorldItem> world;
     /// Copies of what the items point to, one for one.
-    std::vector<MaterialDesc> opaque_materials, transparent_materials;
+    std::vector<MaterialDesc> opaque_materials, transparent_materials, world_materials;
     std::vector<LightDesc> light_descs;
 };
 
@@ -63,6 +64,7 @@ public:
     DummyRasterizer();
 
     [[nodiscard]] RasterizerInfo info() const override;
+    [[nodiscard]] FrameContents frame_contents() const override { return contents_; }
     Expected<RID> texture_create(const Image& image, const TextureParams& params,
                                  TextureColorSpace space) override;
     Expected<RID> mesh_create(std::span<const MeshSurface> surfaces) override;
@@ -93,6 +95,9 @@ public:
     [[nodiscard]] std::optional<TextureColorSpace> texture_space(RID texture) const noexcept;
     /// The last frame drawn; null before the first.
     [[nodiscard]] const RecordedFrame* last_frame() const noexcept { return frame_ ? &*frame_ : nullptr; }
+
+    /// What the next frames are to hold.
+    void set_frame_contents(FrameContents contents) { contents_ = contents; }
 
     /// The next call of this kind fails with `error` and does nothing.
     void fail_next(CallKind kind, Error error) { failure_ = Failure{kind, std::move(error)}; }
@@ -133,6 +138,7 @@ private:
     std::optional<RecordedFrame> frame_;
     std::optional<Failure> failure_;
     FrameStats stats_;
+    FrameContents contents_ = FrameContents::InView;
     Target window_;
 };
 

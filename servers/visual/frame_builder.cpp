@@ -60,7 +60,10 @@ const Frame& FrameBuilder::build(const View& view, const RenderSettings& setting
     const CameraDesc* camera = storage_.cameras.get(view.camera);
     frame_.camera = camera ? *camera : CameraDesc{};
     resolve_environment(scenario, errors);
-    if (scenario && camera) {
+    if (scenario && camera && view.contents == FrameContents::WholeScene) {
+        add_directional_lights(*scenario);
+        add_world(*scenario, errors);
+    } else if (scenario && camera) {
         add_directional_lights(*scenario);
         const glm::mat4 view_from_world = camera->world_from_camera.inverse().to_mat4();
         add_visible_instances(
@@ -72,6 +75,7 @@ const Frame& FrameBuilder::build(const View& view, const RenderSettings& setting
     frame_.transparent = transparent_;
     frame_.lights = lights_;
     frame_.gi_probes = probes_;
+    frame_.world = world_;
     frame_.casters_bounds = casters_.directional_bounds();
     return frame_;
 }
@@ -84,6 +88,7 @@ void FrameBuilder::clear(const View& view, const RenderSettings& settings) {
     transparent_.clear();
     lights_.clear();
     probes_.clear();
+    world_.clear();
     casters_.clear();
     frame_ = {};
     frame_.size = view.size;

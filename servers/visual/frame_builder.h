@@ -18,6 +18,7 @@ namespace cl {
 struct View {
     glm::ivec2 size{0}; ///< [pixels]
     RID scenario, camera;
+    FrameContents contents = FrameContents::InView;
 };
 
 /// Turns a view into the Frame that a rasteriser draws: culls, picks materials, lights and probes, and sorts.
@@ -34,6 +35,9 @@ private:
     void clear(const View& view, const RenderSettings& settings);
     void resolve_environment(const Scenario* scenario, FirstError& errors);
     void add_directional_lights(const Scenario& scenario);
+    /// Everything that is visible, wherever it stands: FrameContents::WholeScene.
+    void add_world(const Scenario& scenario, FirstError& errors);
+    void add_world_instance(const Instance& instance, FirstError& errors);
     void add_visible_instances(const Scenario& scenario, const Frustum& frustum, FirstError& errors);
     void add_instance(RID rid, Instance& instance, FirstError& errors);
     void choose_lights(const Instance& instance, DrawItem& item);
@@ -61,6 +65,7 @@ private:
     std::vector<DrawItem> opaque_, transparent_;
     std::vector<LightItem> lights_;
     std::vector<GIProbeShading> probes_;
+    std::vector<WorldItem> world_;
 };
 
 } // namespace cl
