@@ -96,6 +96,7 @@ Status VisualServer::Impl::draw_viewport(Viewport& viewport) {
     frame_stats.draw_calls += stats.draw_calls;
     frame_stats.triangles += stats.triangles;
     frame_stats.gpu_ms += stats.gpu_ms;
+    frame_stats.rays += stats.rays;
     return errors.status();
 }
 
