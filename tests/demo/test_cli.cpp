@@ -51,7 +51,7 @@ TEST_SUITE("demo/cli") {
         const ProcessResult version = conelight({"--version"});
         CHECK(version.exit_status == 0);
         CHECK(version.output == "conelight 0.1.0\n");
-        for (const char* command : {"", "render", "run", "bake", "inspect", "bench"}) {
+        for (const char* command : {"", "render", "run", "bake", "reference", "inspect", "bench"}) {
             CAPTURE(command);
             const ProcessResult help = *command ? conelight({command, "--help"}) : conelight({"--help"});
             CHECK(help.exit_status == 0);
