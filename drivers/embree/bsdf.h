@@ -13,7 +13,8 @@ namespace cl::embree {
 /// length, in world space; colours are linear.
 ///
 /// Diffuse: Burley, Oren-Nayar or Lambert, times 1 - F as sky light is in the scene pass (spec scene-classes
-/// section 14.3), so that no surface sends out more than it receives. Wrap and toon shading have no meaning
+/// section 14.3), so that a surface sends out no more than it receives (Burley's sheen of
+/// rough ones: 4 % more on the mean). Wrap and toon shading have no meaning
 /// for light from all around: they reflect it as Lambert does, as in the scene pass. Specular: GGX as
 /// servers/shading/brdf.h has it, for all specular modes.
 struct Bsdf {

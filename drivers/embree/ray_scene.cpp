@@ -48,7 +48,9 @@ bool is_front(const TracedItem& item, float normal_dot_direction) noexcept {
 bool meets(const TracedItem& item, const Query& query, bool front, uint32_t geometry, uint32_t triangle,
            const glm::vec2& barycentric) noexcept {
     const bool both_sides = query.kind == RayKind::Shadow && item.casting == ShadowCasting::DoubleSided;
-    if (!is_there_for(item, query) || !(both_sides || item.shows(front))) {
+    // A shadow ray runs against the light, which a caster's culled side lets pass.
+    const bool shown_side = query.kind == RayKind::Shadow ? !front : front;
+    if (!is_there_for(item, query) || !(both_sides || item.shows(shown_side))) {
         return false;
     }
     if (!item.material.has_holes()) {

@@ -37,9 +37,10 @@ struct Hit {
 
 /// The surfaces of a scene, found by ray: Embree's bounding volume hierarchy over all items' triangles.
 ///
-/// A side that the material culls is not there, for any ray: as the scene pass and its shadow maps have it. A
-/// surface with an opacity below 1 stops that share of the rays: which ones, a hash of the ray's seed and the
-/// triangle decides, so that the order in which Embree finds triangles does not matter.
+/// A side that the material culls is not there, as the scene pass and its shadow maps have it: for a shadow
+/// ray that is the side that faces the lamp, for all others the side that the ray comes to. A surface with an
+/// opacity below 1 stops that share of the rays: which ones, a hash of the ray's seed and the triangle
+/// decides, so that the order in which Embree finds triangles does not matter.
 class RayScene {
 public:
     /// Borrows the items, which must outlive it unmoved. @param camera_mask  layers that camera rays meet

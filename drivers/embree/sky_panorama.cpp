@@ -37,12 +37,14 @@ SkyPanorama::SkyPanorama(const SkyDesc& desc) : size_(desc.size) {
         const float v = desc.radiance[i];
         texels_[i / 3][static_cast<glm::length_t>(i % 3)] = std::isfinite(v) ? v : 0.0f;
     }
+    weights_.reserve(texels_.size());
     columns_.reserve(texels_.size());
     rows_.reserve(static_cast<size_t>(size_.y));
     for (int y = 0; y < size_.y; ++y) {
         float sum = 0.0f;
         for (int x = 0; x < size_.x; ++x) {
-            sum += weight(x, y);
+            weights_.push_back(weight_of(x, y));
+            sum += weights_.back();
             columns_.push_back(sum);
         }
         total_ += sum;
@@ -56,9 +58,16 @@ const glm::vec3& SkyPanorama::texel(int x, int y) const noexcept {
     return texels_[static_cast<size_t>(row) * static_cast<size_t>(size_.x) + static_cast<size_t>(column)];
 }
 
-float SkyPanorama::weight(int x, int y) const noexcept {
-    const float luminance = glm::dot(texel(x, y), glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    return std::max(0.0f, luminance) *
+float SkyPanorama::weight_of(int x, int y) const noexcept {
+    constexpr float kShares[3] = {1.0f / 8.0f, 6.0f / 8.0f,
+                                  1.0f / 8.0f}; // of a row's texels in the middle one's mean
+    glm::vec3 mean(0.0f);
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) {
+            mean += kShares[i] * kShares[j] * texel(x + i - 1, y + j - 1);
+        }
+    }
+    return std::max(0.0f, glm::dot(mean, glm::vec3(0.2126f, 0.7152f, 0.0722f))) *
            std::sin(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(size_.y));
 }
 
@@ -99,7 +108,9 @@ float SkyPanorama::pdf_of_texel(int x, int y, float v) const noexcept {
     if (is_black() || !(sine > 0.0f)) {
         return 0.0f;
     }
-    const double share = weight(x, y) / total_ * static_cast<double>(size_.x) * static_cast<double>(size_.y);
+    const float weight =
+        weights_[static_cast<size_t>(y) * static_cast<size_t>(size_.x) + static_cast<size_t>(x)];
+    const double share = weight / total_ * static_cast<double>(size_.x) * static_cast<double>(size_.y);
     return static_cast<float>(share / (2.0 * kPi * kPi * sine));
 }
 

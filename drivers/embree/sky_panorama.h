@@ -31,13 +31,15 @@ public:
 
 private:
     [[nodiscard]] const glm::vec3& texel(int x, int y) const noexcept;
-    /// Weight of a texel: luminance times the solid angle of its row.
-    [[nodiscard]] float weight(int x, int y) const noexcept;
+    /// What a texel is chosen by: mean luminance of what radiance() gives in it, times the solid angle of its
+    /// row.
+    [[nodiscard]] float weight_of(int x, int y) const noexcept;
     /// Density [1/sr] at a height in the panorama, v in [0, 1].
     [[nodiscard]] float pdf_of_texel(int x, int y, float v) const noexcept;
 
     glm::ivec2 size_;
     std::vector<glm::vec3> texels_;
+    std::vector<float> weights_;
     std::vector<float> columns_; ///< of each row: sums of the weights up to and with each column
     std::vector<double> rows_;   ///< sums of the rows up to and with each
     double total_ = 0.0;

@@ -144,9 +144,7 @@ TEST_SUITE("drivers/embree/light_transport") {
             REQUIRE(world.server.environment_set(world.environment, e));
             world.add(square(3.0f), lambert(glm::vec3(0.5f)));
             world.look({0, 1, 0}, {0, 0, 0}, 0.1f);
-            // Texels that are black next to bright ones are found by bounces alone.
-            const double tolerance = search == LightSearch::ByEmitters ? 0.15 : 0.01;
-            CHECK(world.mean().x == doctest::Approx(0.5 * expected).epsilon(tolerance));
+            CHECK(world.mean().x == doctest::Approx(0.5 * expected).epsilon(0.01));
         }
     }
 }

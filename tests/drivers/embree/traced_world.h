@@ -82,7 +82,7 @@ inline glm::mat3 upside_down() {
 inline glm::mat3 looking(const glm::vec3& direction) {
     const glm::vec3 z = -glm::normalize(direction);
     const glm::vec3 x =
-        glm::normalize(glm::cross(std::abs(z.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1), z));
+        glm::normalize(glm::cross(std::abs(z.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1), z));
     return glm::mat3(x, glm::cross(z, x), z);
 }
 
