@@ -24,8 +24,8 @@ constexpr uint32_t number(RIDKind kind) {
     return static_cast<uint32_t>(kind);
 }
 
-Error no_volumes() {
-    return {ErrorCode::Unsupported, "the path tracer takes no GI volumes: it follows light itself", {}};
+Error no_gi() {
+    return {ErrorCode::Unsupported, "the path tracer takes no GI data: it follows light itself", {}};
 }
 
 } // namespace
@@ -90,11 +90,19 @@ Expected<RID> RasterizerEmbree::sky_create(const SkyDesc& sky) {
 }
 
 Expected<RID> RasterizerEmbree::gi_volume_create(const GIVolumeDesc&) {
-    return no_volumes();
+    return no_gi();
 }
 
 Status RasterizerEmbree::gi_volume_upload(RID, int, glm::ivec3, glm::ivec3, std::span<const uint8_t>) {
-    return no_volumes();
+    return no_gi();
+}
+
+Expected<RID> RasterizerEmbree::gi_field_create(const GIFieldDesc&) {
+    return no_gi();
+}
+
+Status RasterizerEmbree::gi_field_upload(RID, std::span<const uint32_t>, std::span<const uint16_t>) {
+    return no_gi();
 }
 
 Expected<RID> RasterizerEmbree::target_create(glm::ivec2 size) {

@@ -13,7 +13,7 @@ namespace cl::embree {
 /// options and frame give the same picture to the bit, for any number of threads.
 ///
 /// Left out, as it is no part of how light goes: fog, points and lines, blend modes but Mix, no_depth_test.
-/// GI volumes are refused: the server does not make any, since this backend wants the whole scene.
+/// GI volumes and fields are refused: the server does not make any, since this backend wants the whole scene.
 class RasterizerEmbree final : public Rasterizer {
 public:
     /// Told the share of the picture that is done, 0 to 1, from any thread but never from two at once.
@@ -30,6 +30,9 @@ public:
     Expected<RID> gi_volume_create(const GIVolumeDesc& desc) override;
     Status gi_volume_upload(RID volume, int mip, glm::ivec3 offset, glm::ivec3 size,
                             std::span<const uint8_t> rgba8) override;
+    Expected<RID> gi_field_create(const GIFieldDesc& desc) override;
+    Status gi_field_upload(RID field, std::span<const uint32_t> light,
+                           std::span<const uint16_t> air) override;
     Expected<RID> target_create(glm::ivec2 size) override;
     Status free(RID rid) override;
     Status draw(RID target, const Frame& frame) override;

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <utility>
 
 using namespace cl;
@@ -39,9 +40,10 @@ TEST_SUITE("drivers/embree/rasterizer_embree") {
         CHECK(shown.data[3] == 255);
     }
 
-    TEST_CASE("GI volumes are refused, stale RIDs too, and everything made can be freed once") {
+    TEST_CASE("GI data is refused, stale RIDs too, and everything made can be freed once") {
         RasterizerEmbree rasterizer(PathOptions{});
         CHECK(rasterizer.gi_volume_create({{8, 8, 8}, 1}).error().code == ErrorCode::Unsupported);
+        CHECK(rasterizer.gi_field_create({}).error().code == ErrorCode::Unsupported);
         const MeshSurface surface = square(1.0f);
         const RID mesh = rasterizer.mesh_create(std::span(&surface, 1)).value();
         const RID target = rasterizer.target_create({2, 2}).value();
@@ -125,8 +127,8 @@ TEST_SUITE("drivers/embree/rasterizer_embree") {
                     (x >= 2 && y < 2 ? upper_right : elsewhere) += v[(y * 4 + x) * 3];
                 }
             }
-            CHECK(upper_right ==
-                  doctest::Approx(1.0f)); // a quarter of each of four pixels: 16 samples fall in a grid
+            CHECK(upper_right > 0.9f); // a quarter of each of four pixels, more in perspective
+            CHECK(upper_right < 1.6f);
             CHECK(elsewhere == 0.0f);
         }
     }
