@@ -25,9 +25,20 @@ install_missing() {
     [ ${#missing[@]} -eq 0 ] && return 0
     [ "$(id -u)" -eq 0 ] || die "missing packages; as root run: apt-get install --no-install-recommends ${missing[*]}"
     echo "installing ${#missing[@]} packages: ${missing[*]}"
-    apt-get update -qq || die "the package lists cannot be fetched: is this machine offline?"
-    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
-        die "apt-get could not install: ${missing[*]}"
+    apt_install "${missing[@]}"
+}
+
+# apt_install PACKAGE...: quiet unless it fails; then one line that says why, and where apt-get's own words are.
+# Lists that cannot be fetched are no error yet: an unrelated source may be down, or the packages be here already.
+apt_install() {
+    local log fresh=yes
+    log=$(mktemp)
+    apt-get -qq -o APT::Update::Error-Mode=any update >"$log" 2>&1 || fresh=no
+    if ! DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >>"$log" 2>&1; then
+        [ "$fresh" = yes ] || die "packages cannot be fetched: connect this machine to its package mirror and run this again (details: $log)"
+        die "apt-get could not install $*: $(grep '^E: ' "$log" | head -1) (details: $log)"
+    fi
+    rm -f "$log"
 }
 
 # build TARGET...: scons, quiet unless something is wrong.
