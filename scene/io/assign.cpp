@@ -4,9 +4,12 @@
 #include "scene/resources/missing_resource.h"
 
 #include "core/object/class_registry.h"
+#include "core/variant/variant_components.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace cl::scene {
@@ -71,6 +74,27 @@ Status refused(const Object& object, const TextAssignment& assignment, const Var
     return {};
 }
 
+/// Godot takes infinities and NaN and draws what comes of them; one in a transform would make all below it
+/// vanish.
+bool is_finite(const Variant& value) {
+    if (const double* number = value.get_if<double>()) {
+        return std::isfinite(*number);
+    }
+    const Components numbers = components_of(value);
+    return std::all_of(numbers.span().begin(), numbers.span().end(),
+                       [](float number) { return std::isfinite(number); });
+}
+
+/// As the property would hold the value: 1e300 is not finite as a float.
+bool is_finite_in(const Object& object, const StringName& property, const Variant& value) {
+    const PropertyInfo* info = object.class_info().find_property(property);
+    if (!info || (value.type() != Variant::Type::Real && component_count(value.type()) == 0)) {
+        return true;
+    }
+    const std::optional<Variant> held = info->convert(value);
+    return !held || is_finite(*held);
+}
+
 } // namespace
 
 bool is_bookkeeping(std::string_view key) noexcept {
@@ -101,7 +125,11 @@ void warn_unknown_resource_class(const std::string& type, const SourceLocation& 
 
 Status assign(Object& object, const TextAssignment& assignment, const Variant& value,
               Diagnostics& diagnostics) {
-    switch (object.set(StringName(assignment.key), value)) {
+    const StringName property(assignment.key);
+    if (!is_finite_in(object, property, value)) {
+        return refused(object, assignment, value, diagnostics);
+    }
+    switch (object.set(property, value)) {
     case SetResult::Done:
         return {};
     case SetResult::WrongType:

@@ -215,6 +215,36 @@ shape = SubResource( 1 )
                   "1000, which is left out"});
     }
 
+    TEST_CASE("a number that is not finite as the property holds it is a warning, and the property keeps its "
+              "value") {
+        TestProject p;
+        p.write("a.tscn", R"([gd_scene format=2]
+[node name="A" type="OmniLight"]
+transform = Transform( nan, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0 )
+light_energy = 1e300
+omni_range = inf
+light_color = Color( 1, inf, 0, 1 )
+omni_attenuation = 1e30
+shadow_bias = 1e-300
+unknown = inf
+)");
+        const std::unique_ptr<Node> root = p.load();
+        REQUIRE_MESSAGE(root != nullptr, p.error());
+        CHECK(root->get("transform") == Variant(Transform()));
+        CHECK(root->get("light_energy") == Variant(1.0));
+        CHECK(root->get("omni_range") == Variant(5.0));
+        CHECK(root->get("light_color") == Variant(Color{1, 1, 1, 1}));
+        CHECK(root->get("omni_attenuation") == Variant(1e30f));
+        CHECK(root->get("shadow_bias") == Variant(0.0));
+        const std::vector<std::string> warnings = p.warnings();
+        REQUIRE(warnings.size() == 5);
+        CHECK(warnings[0] == "a.tscn:3:13: warning: OmniLight.transform: expected a value in range, found "
+                             "nan, 0, 0, 0, 1, 0, 0, 0, 1 - 0, 0, 0, which is left out");
+        CHECK(warnings[2] ==
+              "a.tscn:5:14: warning: OmniLight.omni_range: expected a value in range, found inf, "
+              "which is left out");
+    }
+
     TEST_CASE(
         "a resource of a class that we do not have in the place of one of ours is a warning, and is kept") {
         TestProject p;
