@@ -1,6 +1,7 @@
 #include "scene/io/inspect.h"
 
 #include "scene/io/class_check.h"
+#include "scene/io/parent_check.h"
 #include "scene/io/resource_link.h"
 #include "scene/io/text_reader.h"
 #include "scene/io/text_writer.h"
@@ -123,6 +124,9 @@ Expected<Inspection> inspect_file(const std::filesystem::path& path) {
     const Expected<SceneFile> file = read_scene_file(path, diagnostics);
     if (!file) {
         return file.error();
+    }
+    if (const Status placed = check_parents(*file); !placed) {
+        return placed.error();
     }
     check_classes(*file, diagnostics);
     Inspection inspection;

@@ -68,7 +68,8 @@ struct Inspection {
 };
 
 /// Reads a text scene or resource. Other files that it refers to are not opened.
-/// @return the error of reading it; ParseError if it is probe data that is not valid.
+/// @return the error of reading it; ParseError if a node's parent cannot be, or if it is probe data that is
+/// not valid.
 [[nodiscard]] Expected<Inspection> inspect_file(const std::filesystem::path& file);
 
 } // namespace cl::scene

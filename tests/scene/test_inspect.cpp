@@ -78,6 +78,32 @@ transform = Transform( 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0 )
         CHECK(i->warnings[2].where.line == 7);
     }
 
+    TEST_CASE("a parent that is not above and cannot come with an instance is an error at the node") {
+        TestProject p;
+        const std::string head =
+            "[gd_scene]\n[ext_resource path=\"res://b.tscn\" type=\"PackedScene\" id=1]\n"
+            "[node name=\"R\" type=\"Spatial\"]\n";
+        const auto outcome = [&](const std::string& nodes) {
+            p.write("a.tscn", head + nodes);
+            const Expected<Inspection> i = inspect_file(p.file("a.tscn"));
+            return i ? std::string("shown") : i.error().to_string().substr(p.file("a.tscn").string().size());
+        };
+        const std::string circle = "[node name=\"A\" type=\"Spatial\" parent=\"B\"]\n"
+                                   "[node name=\"B\" type=\"Spatial\" parent=\"A\"]\n";
+        CHECK(outcome(circle) == ":4:1: error: expected the path of a node above as \"parent\", found \"B\"");
+        CHECK(outcome("[node name=\"A\" type=\"Spatial\" parent=\"A\"]\n") ==
+              ":4:1: error: expected the path of a node above as \"parent\", found \"A\"");
+        CHECK(outcome("[node name=\"A\" type=\"Spatial\" parent=\".\"]\n"
+                      "[node name=\"B\" type=\"Spatial\" parent=\"A/X\"]\n") ==
+              ":5:1: error: expected the path of a node above as \"parent\", found \"A/X\"");
+        CHECK(outcome("[node name=\"A\" type=\"Spatial\" parent=\"/\"]\n") ==
+              ":4:1: error: expected the path of a node above as \"parent\", found \"/\"");
+        CHECK(outcome("[node name=\"I\" parent=\".\" instance=ExtResource( 1 )]\n"
+                      "[node name=\"B\" type=\"Spatial\" parent=\"I/Hall/Stairs\"]\n"
+                      "[node name=\"C\" type=\"Spatial\" parent=\"./I//Hall/Stairs/B\"]\n"
+                      "[node name=\"D\" type=\"Spatial\" parent=\"I/../.\"]\n") == "shown");
+    }
+
     TEST_CASE("probe data shows its grid") {
         TestProject p;
         p.write("a.tres",
