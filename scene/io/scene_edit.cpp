@@ -102,6 +102,7 @@ void set_assignment(Assignments& assignments, std::string_view key, Variant valu
                                    [&](const TextAssignment& a) { return a.key == key; });
     if (same != assignments.end()) {
         same->value = std::move(value);
+        same->raw = {};
         assignments.erase(std::remove_if(same + 1, assignments.end(),
                                          [&](const TextAssignment& a) { return a.key == key; }),
                           assignments.end());
@@ -133,7 +134,7 @@ void set_node_resource(SceneFile& file, std::string_view node_path, std::string_
 Expected<bool> embed_probe_data(const std::filesystem::path& scene, std::string_view node_path,
                                 const std::filesystem::path& data) {
     Diagnostics remarks; // the scene was loaded before: they were said then
-    Expected<SceneFile> file = read_scene_file(scene, remarks);
+    Expected<SceneFile> file = read_scene_file(scene, remarks, Spelling::Kept);
     if (!file) {
         return file.error();
     }

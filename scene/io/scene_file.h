@@ -4,6 +4,7 @@
 #include "core/variant/variant_parser.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,8 @@ namespace cl::scene {
 
 // A text scene or resource as its file says it (spec tscn): nothing looked up, nothing made. References to
 // resources are ResourceLinks in the values. `where` and `tag_text` are empty in parts that did not come from
-// a file; a `tag_text` is written back as it is, so it is emptied when a field of its tag changes.
+// a file; a `tag_text` is written back as it is, so it is emptied when a field of its tag changes; so is the
+// `raw` of a value.
 
 using Assignments = std::vector<TextAssignment>;
 
@@ -68,6 +70,8 @@ struct SceneFile {
     enum class Kind { Scene, Resource };
 
     std::string name; ///< of the file, as messages give it
+    /// What the `raw` of the assignments points into; null where no value keeps its spelling.
+    std::shared_ptr<const std::string> text;
     Kind kind = Kind::Scene;
     std::string resource_type; ///< of a resource file
     std::string heading_text;  ///< as tag_text, for the first tag

@@ -24,7 +24,9 @@ public:
         file_.name = name;
     }
 
-    Expected<SceneFile> read() {
+    /// @param kept  the text that is read, if values shall keep their spelling
+    Expected<SceneFile> read(std::shared_ptr<const std::string> kept) {
+        file_.text = std::move(kept);
         Status status = read_heading();
         while (status) {
             Expected<TextItem> item = reader_.next_item();
@@ -260,6 +262,9 @@ private:
         if (!target_) {
             return error_at(assignment.where, fmt::format("expected a tag, found \"{}\"", assignment.key));
         }
+        if (!file_.text) {
+            assignment.raw = {}; // the text does not outlive the reader
+        }
         target_->push_back(std::move(assignment));
         return {};
     }
@@ -286,12 +291,17 @@ private:
 
 } // namespace
 
-Expected<SceneFile> parse_scene_text(std::string_view text, const std::string& name,
-                                     Diagnostics& diagnostics) {
-    return SceneTextReader(text, name, diagnostics).read();
+Expected<SceneFile> parse_scene_text(std::string_view text, const std::string& name, Diagnostics& diagnostics,
+                                     Spelling spelling) {
+    if (spelling == Spelling::Forgotten) {
+        return SceneTextReader(text, name, diagnostics).read(nullptr);
+    }
+    auto kept = std::make_shared<const std::string>(text);
+    return SceneTextReader(*kept, name, diagnostics).read(kept);
 }
 
-Expected<SceneFile> read_scene_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
+Expected<SceneFile> read_scene_file(const std::filesystem::path& file, Diagnostics& diagnostics,
+                                    Spelling spelling) {
     const Expected<std::string> text = read_text_file(file);
     if (!text) {
         return text.error();
@@ -302,7 +312,7 @@ Expected<SceneFile> read_scene_file(const std::filesystem::path& file, Diagnosti
                      fmt::format("expected a text scene or resource, found a binary one ({})", magic),
                      {file.string()}};
     }
-    return parse_scene_text(*text, file.string(), diagnostics);
+    return parse_scene_text(*text, file.string(), diagnostics, spelling);
 }
 
 } // namespace cl::scene

@@ -158,7 +158,11 @@ private:
         for (const TextAssignment& a : assignments) {
             out_ += property_key_text(a.key);
             out_ += " = ";
-            append_variant(out_, a.value, options_);
+            if (!a.raw.empty()) {
+                out_ += a.raw;
+            } else {
+                append_variant(out_, a.value, options_);
+            }
             out_ += '\n';
         }
     }

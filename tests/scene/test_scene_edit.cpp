@@ -56,6 +56,30 @@ script = null
         CHECK(text_of(p.file("a.tscn")) == once);
     }
 
+    TEST_CASE("what embedding does not touch keeps its spelling") {
+        TestProject p;
+        p.write("a.tscn", R"([gd_scene format=2]
+
+[node name="Room" type="Spatial"]
+transform = Transform( 1.50, 0, 0, 0, 1e0, 0, 0, 0, 1, .5, +2, 0.1000000001 )
+old = NodePath("A:")
+text = "two
+lines	\u00e4"
+
+[node name="Probe" type="GIProbe" parent="."]
+extents = Vector3(2,2,2)
+)");
+        const std::string before = text_of(p.file("a.tscn"));
+        REQUIRE(embed_probe_data(p.file("a.tscn"), "Probe", p.file("p.tres")).has_value());
+        std::string expected = before;
+        expected.replace(0, std::string("[gd_scene format=2]\n").size(),
+                         "[gd_scene load_steps=2 format=2]\n\n"
+                         "[ext_resource path=\"res://p.tres\" type=\"GIProbeData\" id=1]\n");
+        CHECK(text_of(p.file("a.tscn")) == expected + "data = ExtResource( 1 )\n");
+        REQUIRE(embed_probe_data(p.file("a.tscn"), "Probe", p.file("q.tres")).has_value());
+        CHECK(text_of(p.file("a.tscn")).find("data = ExtResource( 2 )") != std::string::npos);
+    }
+
     TEST_CASE("another file takes the place of the old one, whose entry goes when nobody uses it") {
         TestProject p;
         p.write("a.tscn", kScene);
