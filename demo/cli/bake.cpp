@@ -75,6 +75,16 @@ struct Baked {
     std::filesystem::path file;
 };
 
+/// The folder of `-o`; it is made if it is not there.
+Status make_folder(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        return Error{ErrorCode::IoError, "cannot make the folder: " + failed.message(), {folder.string()}};
+    }
+    return {};
+}
+
 /// Writes one file a probe, and its reference into the scene with `--embed`. @return how many files were
 /// written.
 Expected<int> write_all(const std::vector<Baked>& baked, const scene::Node& root, const Options& options) {
@@ -138,6 +148,11 @@ int run_bake(const Options& options) {
     FileNames names;
     const std::filesystem::path folder =
         options.output_dir.empty() ? options.input.parent_path() : options.output_dir;
+    if (!options.output_dir.empty()) {
+        if (const Status made = make_folder(folder); !made) {
+            return fail(made.error());
+        }
+    }
     for (scene::GIProbe* probe : *probes) {
         if (options.subdivision) {
             // 64, 128, 256, 512 are checked on the command line: 64 << subdiv.
@@ -160,7 +175,6 @@ int run_bake(const Options& options) {
         log_info("nothing changed, nothing written");
     }
     figures.scene = options.input.filename().string();
-    figures.gi = "cones";
     figures.threads = thread_count();
     figures.load_ms = loaded->load_ms;
     figures.bake_ms = bake_ms;

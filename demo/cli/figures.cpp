@@ -20,6 +20,14 @@ Json number_or_null(const std::optional<double>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+Json text_or_null(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json size_or_null(glm::ivec2 size) {
+    return size == glm::ivec2(0) ? Json(nullptr) : Json{size.x, size.y};
+}
+
 Json probe_json(const ProbeFigures& probe) {
     return {{"path", probe.path},
             {"size", {probe.size.x, probe.size.y, probe.size.z}},
@@ -52,10 +60,10 @@ std::string to_json(const Figures& f) {
     }
     Json json = {{"conelight", kVersion},
                  {"scene", f.scene},
-                 {"driver", f.driver},
-                 {"renderer", f.renderer},
-                 {"size", {f.size.x, f.size.y}},
-                 {"gi", f.gi},
+                 {"driver", text_or_null(f.driver)},
+                 {"renderer", text_or_null(f.renderer)},
+                 {"size", size_or_null(f.size)},
+                 {"gi", text_or_null(f.gi)},
                  {"threads", f.threads},
                  {"load_ms", number_or_null(f.load_ms)},
                  {"bake_ms", number_or_null(f.bake_ms)},

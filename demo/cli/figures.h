@@ -30,7 +30,8 @@ struct PathFigures {
 };
 
 /// The figures of a run, as `--stats` and `bench --json` write them. Times in milliseconds; a step that did
-/// not run is none and becomes null.
+/// not run is none and becomes null,
+/// as do the driver, renderer, size and gi of a run that draws nothing.
 struct Figures {
     std::string scene, driver, renderer, gi;
     glm::ivec2 size{0};

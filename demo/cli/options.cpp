@@ -1,5 +1,7 @@
 #include "demo/cli/options.h"
 
+#include "core/variant/variant_parser.h"
+
 #include <CLI/CLI.hpp>
 
 #include <charconv>
@@ -13,6 +15,15 @@ const std::map<std::string, GIMode> kGIModes{
     {"off", GIMode::Off}, {"cones", GIMode::Cones}, {"auto", GIMode::Auto}};
 const std::map<std::string, Quality> kQualities{{"low", Quality::Low}, {"high", Quality::High}};
 constexpr int kMaxPictureEdge = 16384;
+
+/// Names to their values; the help shows the option's type_name alone, as the values have no text of their
+/// own.
+template <typename T>
+CLI::CheckedTransformer one_of(const std::map<std::string, T>& values) {
+    CLI::CheckedTransformer transformer(values);
+    transformer.description("");
+    return transformer;
+}
 
 std::optional<glm::ivec2> parse_size(const std::string& text) {
     glm::ivec2 size{0};
@@ -57,6 +68,10 @@ void add_scene(CLI::App& app, Options& o) {
                    if (!parsed) {
                        throw CLI::ValidationError("--set", "expected PATH:PROPERTY=VALUE, found " + text);
                    }
+                   if (const Expected<Variant> value = parse_variant(parsed->value_text, parsed->property);
+                       !value) {
+                       throw CLI::ValidationError("--set", value.error().to_string());
+                   }
                    o.overrides.push_back(*parsed);
                }
            },
@@ -86,10 +101,10 @@ void add_drawing(CLI::App& app, Options& o) {
     add_view(app, o);
     app.add_option("--gi", o.gi_mode,
                    "global illumination: off, cones (Godot 3.2's) or auto (the best there is)")
-        ->transform(CLI::CheckedTransformer(kGIModes))
+        ->transform(one_of(kGIModes))
         ->type_name("MODE");
     app.add_option("--quality", o.quality, "low (4 cones) or high (6 cones)")
-        ->transform(CLI::CheckedTransformer(kQualities))
+        ->transform(one_of(kQualities))
         ->type_name("low|high");
     app.add_option("--driver", o.driver, "where the GL context comes from: osmesa, egl or window")
         ->check(CLI::IsMember({"osmesa", "egl", "window"}))
@@ -142,11 +157,13 @@ void add_bake(CLI::App& app, Options& o) {
     c->add_option("--subdiv", o.subdivision, "cells along the longest axis (default: the probe's)")
         ->check(CLI::IsMember({64, 128, 256, 512}))
         ->type_name("64|128|256|512");
-    c->add_option("-o,--output", o.output_dir, "folder for one .tres a probe (default: beside the scene)")
+    c->add_option("-o,--output", o.output_dir,
+                  "folder for one .tres a probe, made if missing (default: beside the scene)")
         ->type_name("DIR");
     c->add_flag("--embed", o.embed, "write the data's reference into the scene");
     c->add_flag("--compat", o.compat, "Godot 3.2's sampling, cell for cell");
-    c->add_option("--json", o.json_file, "write what was baked as JSON")->type_name("FILE");
+    c->add_option("--json", o.json_file, "write what was baked as JSON (- for standard output)")
+        ->type_name("FILE");
     c->callback([&o] { o.command = Command::Bake; });
 }
 

@@ -174,13 +174,22 @@ TEST_SUITE("demo/cli") {
 
     TEST_CASE("baking twice writes once and says so") {
         const TemporaryFolder folder;
-        const std::vector<std::string> bake = {"bake", demo_scene("corridor"), "-o", folder.path(),
-                                               "--compat"};
+        const std::filesystem::path made = folder / "new" / "baked";
+        const std::vector<std::string> bake = {
+            "bake", demo_scene("corridor"), "-o", made, "--compat", "--json", "-"};
         const ProcessResult first = conelight(bake);
         CHECK(first.exit_status == 0);
-        const auto file = folder / "ProbeNear.tres";
+        const auto json = nlohmann::json::parse(first.output);
+        CHECK(json["probes"].size() == 2);
+        CHECK(json["probes"][0]["cells"] > json["probes"][0]["leaves"]);
+        CHECK(json["bake_ms"] > 0);
+        for (const char* not_run : {"driver", "renderer", "size", "gi", "frame_ms", "relight_ms"}) {
+            CAPTURE(not_run);
+            CHECK(json.at(not_run).is_null());
+        }
+        const auto file = made / "ProbeNear.tres";
         REQUIRE(std::filesystem::exists(file));
-        REQUIRE(std::filesystem::exists(folder / "ProbeFar.tres"));
+        REQUIRE(std::filesystem::exists(made / "ProbeFar.tres"));
         const std::string bytes = read_text(file);
         const auto time = std::filesystem::last_write_time(file);
         const ProcessResult second = conelight(bake);
@@ -190,7 +199,7 @@ TEST_SUITE("demo/cli") {
         CHECK(read_text(file) == bytes);
     }
 
-    TEST_CASE("an override reaches the picture's scene, and a wrong one ends with 1") {
+    TEST_CASE("a wrong override ends with one line: 1 if the scene has no such place, 2 if it is no value") {
         const TemporaryFolder folder;
         const ProcessResult unknown_node = conelight(
             {"render", demo_scene("cornell"), "--set", "Nowhere:visible=false", "-o", folder / "o.png"});
@@ -198,8 +207,11 @@ TEST_SUITE("demo/cli") {
         CHECK(is_one_line(unknown_node.errors));
         const ProcessResult bad_value = conelight(
             {"render", demo_scene("cornell"), "--set", "Lamp:light_energy=Vector3(", "-o", folder / "o.png"});
-        CHECK(bad_value.exit_status == 1);
-        CHECK(is_one_line(bad_value.errors));
+        CHECK(bad_value.exit_status == 2);
+        CHECK(
+            bad_value.errors ==
+            "conelight: error: --set: light_energy:1:9: error: Vector3: expected a number, found end of text "
+            "(see conelight --help)\n");
         CHECK_FALSE(std::filesystem::exists(folder / "o.png"));
     }
 
