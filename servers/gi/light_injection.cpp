@@ -1,4 +1,5 @@
 // One light's bounce at every leaf it reaches (spec gi-update section 5).
+#include "servers/gi/clip_planes.h"
 #include "servers/gi/light_march.h"
 #include "servers/gi/relight.h"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace cl::gi {
 
@@ -46,22 +48,23 @@ int32_t truncated(double v) {
     return std::isnan(v) ? 0 : int32_t(std::clamp(v, -kMaxEnergy, kMaxEnergy));
 }
 
-/// A ray toward a leaf and the light's share that arrives if nothing is in its way.
-struct Arrival {
-    March march;
+/// The end of the way from a light to a leaf, and the light's share that arrives if nothing is in its way.
+struct Ray {
+    glm::vec3 to{0.0f};        ///< [cells]
+    glm::vec3 direction{0.0f}; ///< of the light's travel, unit length
     float attenuation = 0.0f;
 };
 
-/// A march that starts whole steps before `to`. @param extra_step  sun rays start one step farther out.
-March whole_steps(const glm::ivec3& dims, const glm::vec3& direction, const glm::vec3& from,
-                  const glm::vec3& to, float extra_step) {
-    const float step = advance_of(direction);
+/// A march along a ray that starts whole steps before its end. @param extra_steps  sun rays start one farther
+/// out.
+March whole_steps(const glm::ivec3& dims, const Ray& ray, const glm::vec3& from, float extra_steps) {
+    const float step = advance_of(ray.direction);
     // Clipped, a ray is no longer than the grid's diagonal and its margins. Where float32 cannot clip (a
     // light 1e9 cells away) this keeps the march short.
     const float longest = 1.1f * length(glm::vec3(dims)) + 8.0f;
-    float distance = std::min(length(to - clipped_start(dims, direction, from, to)), longest);
-    distance += extra_step * step - remainder_of(distance, step);
-    return {to - direction * distance, direction, distance, step};
+    float distance = std::min(length(ray.to - from), longest);
+    distance += extra_steps * step - remainder_of(distance, step);
+    return {ray.to - ray.direction * distance, ray.direction, distance, step};
 }
 
 /// Section 5.2.
@@ -69,21 +72,31 @@ class Sun {
 public:
     Sun(const CellLayout& layout, const CachedLight& light)
         : dims_(layout.dims), direction_(-normalized_or_zero(light.cells_from_light.basis[2])),
-          start_(length(glm::vec3(layout.dims)) * 1.1f) {}
+          start_(length(glm::vec3(layout.dims)) * 1.1f) {
+        planes_.turn_to(dims_, direction_);
+    }
 
-    [[nodiscard]] std::optional<Arrival> at(const Leaf& leaf) const {
+    [[nodiscard]] std::optional<Ray> ray_to(const Leaf& leaf) const {
         const float facing = dot(leaf.normal, -direction_);
         if (!(facing >= kMinFacing)) {
             return std::nullopt;
         }
-        const glm::vec3 to = glm::vec3(leaf.voxel) + 0.5f - kTowardLight * signs(direction_);
-        return Arrival{whole_steps(dims_, direction_, to - start_ * direction_, to, 1.0f), facing};
+        return Ray{glm::vec3(leaf.voxel) + 0.5f - kTowardLight * signs(direction_), direction_, facing};
+    }
+
+    /// Its one direction turned the planes before the first leaf.
+    void turn(ClipPlanes&, const Ray&) const {}
+    [[nodiscard]] const ClipPlanes& planes() const { return planes_; }
+
+    [[nodiscard]] March march(const Ray& ray, const ClipPlanes& planes) const {
+        return whole_steps(dims_, ray, planes.clipped_start(ray.to - start_ * direction_, ray.to), 1.0f);
     }
 
 private:
     glm::ivec3 dims_;
     glm::vec3 direction_; ///< of the light's travel
     float start_;         ///< far enough to be outside of the grid [cells]
+    ClipPlanes planes_;
 };
 
 /// Section 5.3: omni lights, and spots, which have a cone besides.
@@ -94,7 +107,7 @@ public:
           axis_(-normalized_or_zero(light.cells_from_light.basis[2])),
           range_(light.range_m * length(light.cells_from_light.basis[2])) {}
 
-    [[nodiscard]] std::optional<Arrival> at(const Leaf& leaf) const {
+    [[nodiscard]] std::optional<Ray> ray_to(const Leaf& leaf) const {
         glm::vec3 to = glm::vec3(leaf.voxel) + 0.5f;
         to += kTowardLight * signs(position_ - to);
         const glm::vec3 way = to - position_;
@@ -114,7 +127,13 @@ public:
         if (cone < 0.0f) {
             return std::nullopt;
         }
-        return Arrival{whole_steps(dims_, direction, position_, to, 0.0f), attenuation * cone};
+        return Ray{to, direction, attenuation * cone};
+    }
+
+    void turn(ClipPlanes& planes, const Ray& ray) const { planes.turn_to(dims_, ray.direction); }
+
+    [[nodiscard]] March march(const Ray& ray, const ClipPlanes& planes) const {
+        return whole_steps(dims_, ray, planes.clipped_start(position_, ray.to), 0.0f);
     }
 
 private:
@@ -146,25 +165,68 @@ glm::ivec3 reflected(const glm::ivec3& light_color, float attenuation, const glm
     return energy;
 }
 
+/// Leaves a run of which is worked on by one thread.
+constexpr size_t kRun = 1024;
+
+std::span<const Leaf> run_of_leaves(const CellLayout& layout, size_t run) {
+    const std::span<const Leaf> leaves(layout.leaves);
+    return leaves.subspan(run * kRun, std::min(kRun, leaves.size() - run * kRun));
+}
+
+/// How each run of leaves finds the clip planes.
+std::vector<ClipPlanes> planes_at_runs(const CellLayout&, const Sun& sun, size_t runs) {
+    return std::vector<ClipPlanes>(runs, sun.planes());
+}
+
+/// They turn from leaf to leaf, in the leaves' order.
+std::vector<ClipPlanes> planes_at_runs(const CellLayout& layout, const Lamp& lamp, size_t runs) {
+    std::vector<ClipPlanes> planes(runs);
+    parallel_for(runs, 1, [&](size_t begin, size_t end) {
+        for (size_t run = begin; run < end; ++run) {
+            for (const Leaf& leaf : run_of_leaves(layout, run)) {
+                if (const std::optional<Ray> ray = lamp.ray_to(leaf)) {
+                    lamp.turn(planes[run], *ray);
+                }
+            }
+        }
+    });
+    ClipPlanes before;
+    for (ClipPlanes& at : planes) {
+        const ClipPlanes turned = std::exchange(at, before);
+        before.then(turned);
+    }
+    return planes;
+}
+
+template <typename Light>
+void inject_run(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
+                ClipPlanes planes, size_t run, std::span<int32_t> leaf_energies) {
+    const std::span<const Leaf> leaves = run_of_leaves(layout, run);
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        const std::optional<Ray> ray = light.ray_to(leaves[i]);
+        if (!ray) {
+            continue;
+        }
+        light.turn(planes, *ray);
+        const glm::ivec3 energy = reflected(light_color, ray->attenuation, leaves[i].albedo);
+        if (energy == glm::ivec3(0) ||
+            !reaches(layout.leaf_bitmap, light.march(*ray, planes), glm::ivec3(leaves[i].voxel))) {
+            continue;
+        }
+        for (size_t c = 0; c < 3; ++c) {
+            leaf_energies[(run * kRun + i) * 3 + c] += energy[int(c)];
+        }
+    }
+}
+
 template <typename Light>
 void inject(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
             std::span<int32_t> leaf_energies) {
-    constexpr size_t kGrain = 1024;
-    parallel_for(layout.leaves.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const Leaf& leaf = layout.leaves[i];
-            const std::optional<Arrival> arrival = light.at(leaf);
-            if (!arrival) {
-                continue;
-            }
-            const glm::ivec3 energy = reflected(light_color, arrival->attenuation, leaf.albedo);
-            if (energy == glm::ivec3(0) ||
-                !reaches(layout.leaf_bitmap, arrival->march, glm::ivec3(leaf.voxel))) {
-                continue;
-            }
-            for (size_t c = 0; c < 3; ++c) {
-                leaf_energies[i * 3 + c] += energy[int(c)];
-            }
+    const size_t runs = (layout.leaves.size() + kRun - 1) / kRun;
+    const std::vector<ClipPlanes> planes = planes_at_runs(layout, light, runs);
+    parallel_for(runs, 1, [&](size_t begin, size_t end) {
+        for (size_t run = begin; run < end; ++run) {
+            inject_run(layout, light, light_color, planes[run], run, leaf_energies);
         }
     });
 }

@@ -29,23 +29,6 @@ float advance_of(const glm::vec3& direction) noexcept {
     return 1.0f / (a.z > a.x && a.z > a.y ? a.z : a.x);
 }
 
-glm::vec3 clipped_start(const glm::ivec3& dims, const glm::vec3& direction, glm::vec3 from,
-                        const glm::vec3& to) noexcept {
-    constexpr float kEpsilon = 1e-5f;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(direction[axis]) < kEpsilon) {
-            continue;
-        }
-        const float plane = direction[axis] < 0.0f ? float(dims[axis] + 1) : -1.0f;
-        const glm::vec3 along = from - to;
-        const float t = (from[axis] - plane) / along[axis];
-        if (std::abs(along[axis]) >= kEpsilon && t >= -kEpsilon && t <= 1.0f + kEpsilon) {
-            from -= t * along;
-        }
-    }
-    return from;
-}
-
 float remainder_of(float a, float b) noexcept {
     // Products and differences of floats with a quotient below 2^24 are exact in double.
     const double whole = double(int64_t(double(a) / double(b)));

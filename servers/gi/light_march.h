@@ -19,12 +19,6 @@ struct March {
 /// Length of a step that moves by one voxel along the dominant axis: 1 / its magnitude.
 [[nodiscard]] float advance_of(const glm::vec3& direction) noexcept;
 
-/// Moves the start of the segment from..to along it to just outside the grid (planes at -1 and dims + 1),
-/// where it is farther out. The planes are those of this direction alone (section 5.4 tells what happens
-/// otherwise).
-[[nodiscard]] glm::vec3 clipped_start(const glm::ivec3& dims, const glm::vec3& direction, glm::vec3 from,
-                                      const glm::vec3& to) noexcept;
-
 /// Remainder of a / b for 0 <= a < 2^24 * b, b > 0: the same number as std::fmod, without its loop.
 [[nodiscard]] float remainder_of(float a, float b) noexcept;
 

@@ -14,8 +14,7 @@
 namespace cl::gi {
 
 // Relighting as pure functions on spans: layout, then sums of lights per leaf, then energies, then texture
-// bytes. Where no ray crosses Godot's leaking clip planes the bytes are those that Godot 3.2.3 uploads, in
-// every mip.
+// bytes: those that Godot 3.2.3 uploads, in every mip.
 
 /// What relighting reads of a light (spec gi-update section 4); compared exactly, field by field.
 struct CachedLight {
@@ -66,8 +65,8 @@ struct CellEnergies {
 /// restores the numbers from before it came; one light adds at most 2^24 (radiance 16384), so that more than
 /// a hundred of the strongest fit. The result is the same for any number of threads.
 /// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
-/// Departs from Godot: the clip planes are reset for each leaf, so no light passes walls (section 5.4), and a
-/// leaf exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
+/// Lamps light some leaves through walls, those that Godot lights (section 5.4, clip_planes.h).
+/// Departs from Godot: a leaf exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
 void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
                   std::span<int32_t> leaf_energies);
 

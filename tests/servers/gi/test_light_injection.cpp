@@ -119,8 +119,7 @@ TEST_SUITE("servers/gi/light_injection") {
             }
         }
         const gi::CellLayout layout = gi::make_layout(tests::make_octree(leaves));
-        // The slanting sun gets under the wall's lower edges: up to 28 * 0.3 and 28 * 0.1 cells at the last
-        // wall.
+        // Slanting rays get under the wall's lower edges: up to 28 * 0.3 and 28 * 0.1 cells at the last wall.
         const auto light_behind = [&](const Sums& sums, int from_x) {
             int64_t total = 0;
             for (size_t i = 0; i < layout.leaves.size(); ++i) {
@@ -129,14 +128,44 @@ TEST_SUITE("servers/gi/light_injection") {
             }
             return total;
         };
-        const glm::vec3 lamp(20.5f, 32.2f, 30.3f);
-        for (const gi::CachedLight& light : {omni(lamp, 200.0f), spot(lamp, {1, 0, 0}, 60.0f, 200.0f), //
-                                             sun({1.0f, 0.3f, 0.1f})}) {
+        // All leaves lie on one side of the lamps in each axis: there the clip planes stay outside of the
+        // grid.
+        const glm::vec3 lamp(-20.5f, -1.2f, -1.3f);
+        for (const gi::CachedLight& light :
+             {omni(lamp, 200.0f), spot(lamp, {1.0f, 0.4f, 0.4f}, 60.0f, 200.0f), sun({1.0f, 0.3f, 0.1f})}) {
             const Sums sums = lit(layout, light);
             CAPTURE(int(light.type));
-            CHECK(light_behind(sums, light.type == LightType::Directional ? 10 : 32) >
-                  100000); // before the wall
+            CHECK(light_behind(sums, 10) > 100000); // before the wall
             CHECK(light_behind(sums, 33) == 0);
+        }
+    }
+
+    TEST_CASE("rays of a lamp that start at a clip plane inside the grid pass what is before it") {
+        // In tree order: one leaf on the lamp's negative side, which puts the plane at 65; then a row on its
+        // positive side, which lowers it to 64, 63, ...; then a wall; behind it the leaf that counts.
+        const auto with_row = [](int length) {
+            std::vector<HandMadeLeaf> all = {{{0, 0, 0}, kPlusX}};
+            for (int i = 0; i < length; ++i) {
+                all.push_back({{8, 0, i}, kMinusX});
+            }
+            all.push_back({{40, 32, 0}, kMinusX});
+            all.push_back({{50, 32, 0}, kMinusX});
+            return gi::make_layout(tests::make_octree(all));
+        };
+        // The last leaf finds the plane at 63 - row. The ray starts there if that is before the leaf's 50.03,
+        // and beyond the wall if it is past 40.
+        for (const auto& [row, is_lit] : {std::pair{0, false},
+                                          {12, false},
+                                          {13, true},
+                                          {18, true},
+                                          {22, true},
+                                          {23, false},
+                                          {30, false}}) {
+            const gi::CellLayout layout = with_row(row);
+            const Sums sums = lit(layout, omni({4.0f, 32.97f, 0.97f}, 500.0f));
+            CAPTURE(row);
+            CHECK((sums[tests::leaf_at(layout, {50, 32, 0}) * 3] > 0) == is_lit);
+            CHECK(sums[tests::leaf_at(layout, {40, 32, 0}) * 3] > 0);
         }
     }
 

@@ -36,22 +36,6 @@ TEST_SUITE("servers/gi/light_march") {
         CHECK(gi::advance_of(glm::vec3(-0.6f, 0.0f, 0.6f)) == 1.0f / 0.6f);
     }
 
-    TEST_CASE("a start outside the grid moves in to the margin planes, one inside stays") {
-        const glm::ivec3 dims(64, 32, 64);
-        const glm::vec3 down(0, -1, 0);
-        CHECK(gi::clipped_start(dims, down, {5, 100, 5}, {5, 3, 5}) == glm::vec3(5, 33, 5));
-        CHECK(gi::clipped_start(dims, down, {5, 30, 5}, {5, 3, 5}) == glm::vec3(5, 30, 5));
-        CHECK(gi::clipped_start(dims, {1, 0, 0}, {-40, 2, 2}, {10, 2, 2}) == glm::vec3(-1, 2, 2));
-        // A diagonal from far away: no axis is left beyond its plane.
-        const glm::vec3 from(500, 400, -300);
-        const glm::vec3 to(10.5f, 10.5f, 10.5f);
-        const glm::vec3 start = gi::clipped_start(dims, glm::normalize(to - from), from, to);
-        CHECK(start.x <= 65.01f);
-        CHECK(start.y <= 33.01f);
-        CHECK(start.z >= -1.01f);
-        CHECK(glm::length(glm::cross(glm::normalize(start - to), glm::normalize(from - to))) < 1e-4f);
-    }
-
     TEST_CASE("a march reaches a leaf only if it is the first it meets") {
         gi::LeafBitmap leaves(glm::ivec3(64));
         leaves.add(20, 5, 5);
