@@ -40,7 +40,7 @@ void GIProbe::bind(ClassBuilder<GIProbe>& c) {
         .doc("Ambient light and sky do not reach what the cones miss.")
         .default_value(false);
     c.property("compress", &GIProbe::is_compressed, &GIProbe::set_compress)
-        .doc("Asks for a compressed texture. Kept for saving, without effect.")
+        .doc("Shows the texture as S3TC blocks would keep it, coarser in colour.")
         .default_value(false);
     c.property("data", &GIProbe::data, &GIProbe::set_data).doc("What was baked.").default_value(Variant());
 }

@@ -47,7 +47,7 @@ public:
     /// True: ambient light and sky do not reach what the cones miss.
     [[nodiscard]] bool is_interior() const noexcept { return interior_; }
     void set_interior(bool interior);
-    /// Kept and passed on; textures are never compressed here.
+    /// Passed on to the data.
     [[nodiscard]] bool is_compressed() const noexcept { return compress_; }
     void set_compress(bool compress);
     /// What was baked; null: the probe has no effect. Assigning starts the light over, even with the same

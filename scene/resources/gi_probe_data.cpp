@@ -51,7 +51,7 @@ void GIProbeData::bind(ClassBuilder<GIProbeData>& c) {
         .doc("How much light survives upwards in the tree.");
     field("interior", &D::interior, &GIProbeData::set_interior).doc("No sky light where cones find nothing.");
     field("compress", &D::compress, &GIProbeData::set_compress)
-        .doc("Asks for a compressed texture; stored only.");
+        .doc("Shows the texture as S3TC blocks would keep it.");
 }
 
 void GIProbeData::set_data(gi::ProbeData data) {
@@ -115,7 +115,10 @@ void GIProbeData::set_dynamic_range(int dynamic_range) {
 }
 
 void GIProbeData::set_compress(bool compress) {
-    data_.compress = compress;
+    if (compress != data_.compress) {
+        data_.compress = compress;
+        data_changed();
+    }
 }
 
 RID GIProbeData::rid(VisualServer& server) const {

@@ -32,8 +32,8 @@ public:
     void set_normal_bias(float normal_bias_m);
     void set_propagation(float propagation);
     void set_interior(bool interior);
-    /// These two are read at the next set-up only.
     void set_dynamic_range(int dynamic_range);
+    /// Probes that show it start over.
     void set_compress(bool compress);
 
     /// The probe in `server`, made on the first call. It keeps its RID; changes are passed on.

@@ -77,6 +77,9 @@ void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
 void energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies, float propagation,
                           CellEnergies& out);
 
+/// How texels are kept: as they are, or by way of Godot's DXT5 blocks (section 7.1, s3tc.h).
+enum class TexelCoding : uint8_t { Plain, Dxt5 };
+
 /// One texture level: RGBA8, size dims >> mip (section 7).
 struct MipLevel {
     glm::ivec3 size{0};

@@ -131,14 +131,14 @@ ProbeSignal ProbeMachine::observe(const ProbeWanted& wanted, const LightChanges&
 }
 
 Status ProbeMachine::set_up(const ProbeWanted& wanted, Rasterizer& rasterizer) {
-    const glm::ivec3 dims = wanted.layout->dims;
-    Expected<RID> volume = rasterizer.gi_volume_create({.size = dims, .mip_count = gi::mip_count(dims)});
+    Expected<RID> volume = rasterizer.gi_volume_create(
+        {.size = wanted.layout->dims, .mip_count = mip_count_of(*wanted.layout, wanted.coding)});
     if (!volume) {
         unusable_version_ = wanted.data_version;
         return volume.error();
     }
     volume_ = *volume;
-    cells_ = std::make_shared<RelightCells>(wanted.layout);
+    cells_ = std::make_shared<RelightCells>(wanted.layout, wanted.coding);
     data_version_ = wanted.data_version;
     applied_ = {};
     return {};

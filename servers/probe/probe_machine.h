@@ -19,8 +19,9 @@ namespace cl {
 /// What a probe should be, looked at afresh on each step. The machine compares it with what it last did, so a
 /// change is noticed whenever it comes, in whatever stage, and cannot be lost.
 struct ProbeWanted {
-    std::shared_ptr<const gi::CellLayout> layout; ///< null: no data
-    uint64_t data_version = 0;                    ///< another number for each assignment of data
+    std::shared_ptr<const gi::CellLayout> layout;    ///< null: no data
+    gi::TexelCoding coding = gi::TexelCoding::Plain; ///< changes with the data version only
+    uint64_t data_version = 0;                       ///< another number for each assignment of data
     float propagation = 1.0f;
     int dynamic_range = 1;              ///< >= 1
     std::span<const ProbeLight> lights; ///< sorted by key

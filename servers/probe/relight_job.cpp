@@ -1,5 +1,9 @@
 #include "servers/probe/relight_job.h"
 
+#include "servers/gi/s3tc.h"
+
+#include "core/assert.h"
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -9,14 +13,14 @@ namespace {
 
 /// Which mips hold a cell whose energy differs. Mip m holds the cells of level levels - 1 - m (spec section
 /// 7).
-std::vector<bool> changed_mips(const gi::CellLayout& layout, const gi::CellEnergies& before,
-                               const gi::CellEnergies& now) {
-    const size_t mips = static_cast<size_t>(gi::mip_count(layout.dims));
-    std::vector<bool> changed(mips, true);
+std::vector<bool> changed_mips(const RelightCells& relit, const gi::CellEnergies& now) {
+    const gi::CellLayout& layout = *relit.layout;
+    const gi::CellEnergies& before = relit.energies;
+    std::vector<bool> changed(static_cast<size_t>(relit.mip_count()), true);
     if (before.rgb.size() != now.rgb.size()) {
         return changed;
     }
-    for (size_t mip = 0; mip < mips; ++mip) {
+    for (size_t mip = 0; mip < changed.size(); ++mip) {
         const std::vector<uint32_t>& cells =
             layout.cells_of_level[static_cast<size_t>(layout.levels) - 1 - mip];
         changed[mip] = std::any_of(cells.begin(), cells.end(), [&before, &now](uint32_t cell) {
@@ -41,19 +45,26 @@ void carry_out(RelightCells& cells, const RelightOrder& order) {
     gi::CellEnergies energies;
     gi::energies_from_leaves(layout, cells.leaf_sums, order.propagation, energies);
     cells.mip_changed = cells.encoded_range == order.dynamic_range
-                            ? changed_mips(layout, cells.energies, energies)
-                            : std::vector<bool>(static_cast<size_t>(gi::mip_count(layout.dims)), true);
+                            ? changed_mips(cells, energies)
+                            : std::vector<bool>(static_cast<size_t>(cells.mip_count()), true);
     cells.energies = std::move(energies);
     if (cells.any_mip_changed()) {
-        gi::encode_mips(layout, cells.energies, order.dynamic_range, cells.mips);
+        const auto encode = cells.coding == gi::TexelCoding::Dxt5 ? gi::encode_block_mips : gi::encode_mips;
+        encode(layout, cells.energies, order.dynamic_range, cells.mips);
         cells.encoded_range = order.dynamic_range;
     }
 }
 
 } // namespace
 
-RelightCells::RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout)
-    : layout(std::move(cell_layout)) {}
+int mip_count_of(const gi::CellLayout& layout, gi::TexelCoding coding) noexcept {
+    return coding == gi::TexelCoding::Dxt5 ? gi::block_mip_count(layout.dims) : gi::mip_count(layout.dims);
+}
+
+RelightCells::RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout, gi::TexelCoding texel_coding)
+    : layout(std::move(cell_layout)), coding(texel_coding) {
+    CL_ASSERT(mip_count() > 0, "blocks need four texels on each side");
+}
 
 bool RelightCells::any_mip_changed() const {
     return std::find(mip_changed.begin(), mip_changed.end(), true) != mip_changed.end();

@@ -10,6 +10,9 @@
 
 namespace cl {
 
+/// Levels of the texture of a layout.
+[[nodiscard]] int mip_count_of(const gi::CellLayout& layout, gi::TexelCoding coding) noexcept;
+
 /// What a probe is to be lit with next.
 struct RelightOrder {
     std::vector<LightEdit> edits; ///< against what the cells hold now
@@ -21,9 +24,12 @@ struct RelightOrder {
 /// `busy`, used by the worker alone; a probe that is freed meanwhile lets go and the worker's share keeps it
 /// alive.
 struct RelightCells {
-    explicit RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout);
+    /// @param texel_coding  Dxt5 only if gi::block_mip_count() of the layout's dims is not 0
+    explicit RelightCells(std::shared_ptr<const gi::CellLayout> cell_layout,
+                          gi::TexelCoding texel_coding = gi::TexelCoding::Plain);
 
     std::shared_ptr<const gi::CellLayout> layout;
+    gi::TexelCoding coding;
     std::vector<int32_t> leaf_sums; ///< emission and all lights put in so far; empty before the first order
     gi::CellEnergies energies;      ///< of the texels in `mips`
     std::vector<gi::MipLevel> mips;
@@ -33,6 +39,7 @@ struct RelightCells {
     std::atomic<bool> busy{false};
     std::atomic<bool> abandoned{false}; ///< the result is not wanted any more: stop early
 
+    [[nodiscard]] int mip_count() const { return mip_count_of(*layout, coding); }
     [[nodiscard]] bool any_mip_changed() const;
 };
 

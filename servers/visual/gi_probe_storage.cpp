@@ -1,5 +1,6 @@
 #include "servers/visual/gi_probe_storage.h"
 
+#include "servers/gi/s3tc.h"
 #include "servers/visual/finite.h"
 
 #include <fmt/format.h>
@@ -52,6 +53,9 @@ Status set_probe_data(GIProbe& probe, const gi::ProbeData& data, VersionClock& c
         }
         probe.layout = std::make_shared<const gi::CellLayout>(gi::make_layout(*octree));
     }
+    probe.coding = data.compress && probe.layout && gi::block_mip_count(probe.layout->dims) > 0
+                       ? gi::TexelCoding::Dxt5
+                       : gi::TexelCoding::Plain;
     probe.has_data = true;
     probe.bounds = data.bounds;
     probe.cells_from_local = data.cells_from_local;

@@ -17,7 +17,8 @@ struct GIProbe {
     std::shared_ptr<const gi::CellLayout> layout; ///< null: never baked, or not valid
     bool has_data = false;                        ///< data was given, baked or not: it pairs by its bounds
     uint64_t data_version = 0;                    ///< another for each assignment
-    AABB bounds;                                  ///< true box, probe-local [m]
+    gi::TexelCoding coding = gi::TexelCoding::Plain;
+    AABB bounds; ///< true box, probe-local [m]
     Transform cells_from_local;
     glm::vec3 bounds_cells{0.0f}; ///< size of the true box [cells]
     // Read each frame.

@@ -58,6 +58,7 @@ ProbeWanted ProbeDriver::wanted(const Instance& instance) {
     }
     gather_lights(instance, *probe);
     return {.layout = probe->layout,
+            .coding = probe->coding,
             .data_version = probe->data_version,
             .propagation = probe->propagation,
             .dynamic_range = probe->dynamic_range,

@@ -3,6 +3,7 @@
 
 #include "drivers/dummy/dummy_rasterizer.h"
 
+#include "servers/gi/s3tc.h"
 #include "servers/probe/probe_machine.h"
 #include "servers/rasterizer_checked.h"
 
@@ -43,6 +44,7 @@ struct Machine {
 
     std::vector<ProbeLight> lights;
     std::shared_ptr<const gi::CellLayout> layout;
+    gi::TexelCoding coding = gi::TexelCoding::Plain;
     uint64_t data_version = 0;
     float propagation = 0.7f;
     int dynamic_range = 4;
@@ -58,7 +60,7 @@ struct Machine {
         layout = floor_layout();
         ++data_version;
     }
-    ProbeWanted wanted() const { return {layout, data_version, propagation, dynamic_range, lights}; }
+    ProbeWanted wanted() const { return {layout, coding, data_version, propagation, dynamic_range, lights}; }
     Status step() { return machine.step(wanted(), *rasterizer, later); }
     void work() {
         for (; !jobs.empty(); jobs.pop_front()) {
@@ -85,6 +87,7 @@ struct Machine {
     std::vector<uint8_t> fresh_texels() const {
         Machine fresh;
         fresh.layout = layout;
+        fresh.coding = coding;
         fresh.data_version = 1;
         fresh.lights = lights;
         fresh.propagation = propagation;
@@ -270,6 +273,22 @@ TEST_SUITE("servers/probe/probe_machine") {
         CHECK(m.jobs.size() == 2);
         m.work(); // the old job runs into the void
         m.settle();
+        CHECK(m.texels() == m.fresh_texels());
+    }
+
+    TEST_CASE("a probe of compressed data shows its blocks, in fewer mips, after any history") {
+        SettledMachine m;
+        const std::vector<uint8_t> plain = m.texels();
+        m.coding = gi::TexelCoding::Dxt5;
+        m.give_data();
+        m.settle();
+        CHECK(m.dummy->volume_desc(m.machine.volume())->mip_count == gi::block_mip_count(m.layout->dims));
+        CHECK(m.texels().size() < plain.size());
+        m.lights.push_back(lamp(2, {36.0f, 3.0f, 2.0f}));
+        m.settle();
+        m.lights[0].light.energy = 0.5f;
+        m.settle();
+        CHECK(has_light(m.texels()));
         CHECK(m.texels() == m.fresh_texels());
     }
 
