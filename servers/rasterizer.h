@@ -143,8 +143,8 @@ public:
     /// What draw() is to be given. GI probes do no work for a backend that wants the whole scene.
     [[nodiscard]] virtual FrameContents frame_contents() const { return FrameContents::InView; }
 
-    /// Uploads an image (8 bit or float). `space` says whether 8-bit texels are decoded from sRGB on
-    /// sampling.
+    /// Uploads an image (8 bit or float). `space` says whether 8-bit texels of three or four channels are
+    /// decoded from sRGB on sampling; those of one or two never are, as in Godot.
     /// @return Unsupported if the size is beyond the driver's limit.
     virtual Expected<RID> texture_create(const Image& image, const TextureParams& params,
                                          TextureColorSpace space) = 0;

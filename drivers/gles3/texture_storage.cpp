@@ -106,7 +106,10 @@ Expected<RID> TextureStorage::create(const Image& image, const TextureParams& pa
                                  image.size.y, image.data.size())};
     }
     const bool floats = is_float_format(image.format);
-    gl::Format format = space == TextureColorSpace::Srgb ? gl::Format::Srgb8Alpha8 : gl::Format::RGBA8;
+    // Formats of one or two channels are not decoded, grey albedo included: Godot 3.2.3 has no sRGB form of
+    // them.
+    const bool decoded = space == TextureColorSpace::Srgb && channel_count(image.format) >= 3;
+    gl::Format format = decoded ? gl::Format::Srgb8Alpha8 : gl::Format::RGBA8;
     if (floats) {
         format = gl::Format::RGBA16F;
     }
