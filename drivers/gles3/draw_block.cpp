@@ -62,7 +62,7 @@ void set_material(shaders::DrawBlock& block, const MaterialDesc& m) noexcept {
     block.draw_ao_on_uv2 = m.ao_on_uv2;
     block.draw_alpha_scissor = m.alpha_scissor_threshold;
     block.draw_grow_m = m.grow ? m.grow_amount_m : 0.0f;
-    block.draw_back_side = m.cull_mode == CullMode::Disabled ? -1.0f : 1.0f;
+    block.draw_back_side = m.cull_mode == CullMode::Back ? 1.0f : -1.0f;
     block.draw_uses_alpha = m.transparent;
     block.draw_vertex_color = m.vertex_color_use_as_albedo ? 1.0f : 0.0f;
     block.draw_vertex_color_srgb = m.vertex_color_is_srgb ? 1.0f : 0.0f;
