@@ -1,0 +1,122 @@
+"""Runs a scene in real Godot 3.2.3 (Debian's godot3 under Xvfb): picture, baked probe data, timings."""
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+PROJECT = """config_version=4
+[application]
+config/name="peer"
+run/main_scene="res://peer_main.tscn"
+[display]
+window/size/width=%d
+window/size/height=%d
+[rendering]
+quality/driver/driver_name="GLES3"
+quality/voxel_cone_tracing/high_quality=%s
+quality/shadow_atlas/size=4096
+quality/directional_shadow/size=4096
+quality/filters/msaa=0
+"""
+MAIN = """[gd_scene load_steps=2 format=2]
+
+[ext_resource path="res://peer_main.gd" type="Script" id=1]
+
+[node name="Main" type="Spatial"]
+script = ExtResource( 1 )
+"""
+# Godot's relight takes some frames: a picture is taken when that many have been drawn after the last edit.
+SCRIPT = """extends Spatial
+var edits = %(edits)s
+func probes_of(n, out):
+	if n is GIProbe:
+		out.append(n)
+	for c in n.get_children():
+		probes_of(c, out)
+func frames(n):
+	for i in range(n):
+		yield(get_tree(), "idle_frame")
+func _ready():
+	var root = load("res://%(scene)s").instance()
+	add_child(root)
+	var probes = []
+	probes_of(root, probes)
+	var r = {"bake_ms": 0.0, "frame_ms": 0.0}
+	for p in probes:
+		if p.data != null:
+			continue
+		var t = OS.get_ticks_usec()
+		p.bake(root, false)
+		r["bake_ms"] += (OS.get_ticks_usec() - t) / 1000.0
+		ResourceSaver.save("res://peer_data_" + p.name + ".tres", p.data)
+	if %(off)s:
+		for p in probes:
+			p.hide()
+	yield(frames(40), "completed")
+	for e in edits:
+		root.get_node(e[0]).set(e[1], str2var(e[2]))
+		yield(frames(4), "completed")
+	if edits.size() > 0:
+		yield(frames(40), "completed")
+	var times = []
+	for i in range(15):
+		var t = OS.get_ticks_usec()
+		yield(get_tree(), "idle_frame")
+		times.append((OS.get_ticks_usec() - t) / 1000.0)
+	times.sort()
+	r["frame_ms"] = times[7]
+	var img = get_viewport().get_texture().get_data()
+	img.flip_y()
+	img.save_png("res://peer_out.png")
+	var f = File.new()
+	f.open("res://peer_out.json", File.WRITE)
+	f.store_string(to_json(r))
+	f.close()
+	get_tree().quit()
+"""
+
+
+class GodotFailed(Exception):
+    pass
+
+
+def project_root(scene):
+    """The nearest folder upward that holds a project.godot, else the scene's own."""
+    for folder in scene.parents:
+        if (folder / "project.godot").exists():
+            return folder
+    return scene.parent
+
+
+def copy_project(scene, folder):
+    """The scene alone if it is complete in itself, else its whole project; returns its path in `folder`."""
+    shutil.rmtree(folder, ignore_errors=True)
+    root = project_root(scene)
+    if "[ext_resource" in scene.read_text():
+        shutil.copytree(root, folder, ignore=shutil.ignore_patterns(".git"))
+    else:
+        (folder / scene.relative_to(root)).parent.mkdir(parents=True)
+        shutil.copy(scene, folder / scene.relative_to(root))
+    return scene.relative_to(root)
+
+
+def run(scene, folder, size, quality="high", edits=(), off=False):
+    """Draws `scene` (Path) with a copy of its project in `folder`; bakes the probes that have no data.
+
+    edits: (node, property, value as text), made one after the other while the scene is shown.
+    Returns {"picture": Path, "bake_ms", "frame_ms", "data": {probe's name: Path}}.
+    """
+    inside = copy_project(scene, folder)
+    words = dict(scene=inside, edits=json.dumps([list(e) for e in edits]), off="true" if off else "false")
+    (folder / "project.godot").write_text(PROJECT % (*size, "true" if quality == "high" else "false"))
+    (folder / "peer_main.gd").write_text(SCRIPT % words)
+    (folder / "peer_main.tscn").write_text(MAIN)
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", "timeout", "280", "godot3", "--path", str(folder)]
+    environment = {**os.environ, "HOME": str(folder)}  # its caches and settings stay in there
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    if not (folder / "peer_out.json").exists():
+        raise GodotFailed(f"{scene}: Godot ended with status {done.returncode}: {done.stdout[-600:]}{done.stderr[-600:]}")
+    figures = json.loads((folder / "peer_out.json").read_text())
+    data = {p.stem[len("peer_data_"):]: p for p in sorted(folder.glob("peer_data_*.tres"))}
+    return {"picture": folder / "peer_out.png", "data": data, "log": done.stdout + done.stderr, **figures}
