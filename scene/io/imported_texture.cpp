@@ -2,7 +2,7 @@
 
 #include "scene/io/config_file.h"
 
-#include "core/image.h"
+#include "core/image/alpha_border.h"
 #include "core/threads.h"
 
 #include <algorithm>
@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 11> kImageSuffixes{"png", "jpg", "jpeg", 
 struct Import {
     std::optional<Expected<Image>> image;
     uint32_t flags = texture_flag::kDefault;
+    bool fix_alpha_border = true;
     Diagnostics diagnostics;
 };
 
@@ -39,8 +40,7 @@ uint32_t flags_of(const ConfigFile& import) {
     return flags;
 }
 
-void load(const fs::path& file, Import& import) {
-    import.image = load_image(file);
+void read_settings(const fs::path& file, Import& import) {
     fs::path settings = file;
     settings += ".import";
     std::error_code error;
@@ -49,9 +49,18 @@ void load(const fs::path& file, Import& import) {
     }
     if (const Expected<ConfigFile> config = ConfigFile::load(settings, import.diagnostics)) {
         import.flags = flags_of(*config);
+        import.fix_alpha_border = config->bool_or("params/process/fix_alpha_border", true);
     } else {
         import.diagnostics.warn(config.error().where,
                                 config.error().message + "; the image's settings are not used");
+    }
+}
+
+void load(const fs::path& file, Import& import) {
+    read_settings(file, import);
+    import.image = load_image(file);
+    if (*import.image && import.fix_alpha_border) {
+        **import.image = with_fixed_alpha_border(**import.image);
     }
 }
 
