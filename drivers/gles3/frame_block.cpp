@@ -105,6 +105,21 @@ void set_directional_shadow(shaders::DirectionalLight& out, const PlacedDirectio
     }
 }
 
+/// Godot 3.2 draws a pass for each directional light. The passes after the first add emission, and ambient
+/// light where there is no GI, again (spec scene-classes section 8), and if one light has had its shadow, the
+/// others have none (seen in its pictures). GIMode::Cones shows it as Godot does, the other modes what the
+/// scene says.
+void imitate_light_passes(FrameBlock& block) noexcept {
+    const size_t count = static_cast<size_t>(block.frame_directional_count);
+    block.frame_light_passes = std::max(1.0f, static_cast<float>(count));
+    bool had_shadow = false;
+    for (size_t i = 0; i < count; ++i) {
+        int& splits = block.frame_directional[i].splits;
+        splits = had_shadow ? 0 : splits;
+        had_shadow = had_shadow || splits > 0;
+    }
+}
+
 /// The greatest number of GI probes that reach one of the items.
 int most_probes(std::span<const DrawItem> items) noexcept {
     int most = 0;
@@ -175,6 +190,10 @@ shaders::FrameBlock make_frame_block(const Frame& frame,
         out.shadow_color = linear_from_srgb(light.desc->shadow_color.rgb());
         out.blend_splits = light.desc->directional_blend_splits;
         set_directional_shadow(out, shadows[i], world_from_view);
+    }
+    block.frame_light_passes = 1.0f;
+    if (frame.gi_mode == GIMode::Cones) {
+        imitate_light_passes(block);
     }
     return block;
 }

@@ -93,7 +93,7 @@ void ambient_light(Surface s, vec3 reflection, vec3 fresnel, out vec3 ambient, o
     environment = frame_environment;
     ambient = frame_ambient_color * frame_ambient_energy;
 #endif
-    ambient *= draw_receives_ambient;
+    ambient *= draw_receives_ambient * (draw_gi_count == 0 ? frame_light_passes : 1.0);
     environment *= draw_receives_ambient;
 }
 
@@ -169,7 +169,7 @@ void main() {
     float ao_direct = mix(1.0, ao, draw_ao_light_affect);
     vec3 diffuse = (direct.diffuse * ao_direct + ambient * s.albedo * ao) * (1.0 - s.metallic);
     vec3 lit = diffuse + (specular + direct.specular) * ao_direct;
-    vec3 emission = material_emission();
+    vec3 emission = material_emission() * frame_light_passes;
 #ifdef FOG
     vec4 fog = fog_at(s.position, lit + emission);
     lit = mix(lit, vec3(0.0), fog.a);

@@ -3,8 +3,8 @@
 // needs    lib/frame_block.glsl, lib/draw_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl,
 //          lib/paraboloid.glsl; samplers shadow_atlas, directional_shadow
 // variants DIFFUSE_*, SPECULAR_* choose the reflection; none = Burley, GGX
-// source   spec scene-classes sections 8 and 9. Departs: every directional light in one pass, so that emission and
-//          ambient light count once
+// source   spec scene-classes sections 8 and 9. Departs: every directional light in one pass; what Godot's further
+//          passes add besides is frame_light_passes
 struct Surface {
     vec3 position;
     vec3 normal;
