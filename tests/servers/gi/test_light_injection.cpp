@@ -141,12 +141,17 @@ TEST_SUITE("servers/gi/light_injection") {
     }
 
     TEST_CASE("rays of a lamp that start at a clip plane inside the grid pass what is before it") {
-        // In tree order: one leaf on the lamp's negative side, which puts the plane at 65; then a row on its
-        // positive side, which lowers it to 64, 63, ...; then a wall; behind it the leaf that counts.
-        const auto with_row = [](int length) {
-            std::vector<HandMadeLeaf> all = {{{0, 0, 0}, kPlusX}};
-            for (int i = 0; i < length; ++i) {
-                all.push_back({{8, 0, i}, kMinusX});
+        // In tree order: leaves on the lamp's positive side; one on its negative side, which puts the plane
+        // at 65; a row on its positive side, which lowers it to 64, 63, ...; a wall; behind it the leaf that
+        // counts. 1020 leaves at first have the row cross from one run of leaves to the next.
+        const auto with_row = [](int before, int row) {
+            std::vector<HandMadeLeaf> all;
+            for (int i = 0; i < before; ++i) {
+                all.push_back({{8 + i % 8, i / 8 % 8, i / 64}, kMinusX});
+            }
+            all.push_back({{0, 0, 31}, kPlusX});
+            for (int i = 0; i < row; ++i) {
+                all.push_back({{8 + i % 8, i / 8, 31}, kMinusX});
             }
             all.push_back({{40, 32, 0}, kMinusX});
             all.push_back({{50, 32, 0}, kMinusX});
@@ -154,18 +159,21 @@ TEST_SUITE("servers/gi/light_injection") {
         };
         // The last leaf finds the plane at 63 - row. The ray starts there if that is before the leaf's 50.03,
         // and beyond the wall if it is past 40.
-        for (const auto& [row, is_lit] : {std::pair{0, false},
-                                          {12, false},
-                                          {13, true},
-                                          {18, true},
-                                          {22, true},
-                                          {23, false},
-                                          {30, false}}) {
-            const gi::CellLayout layout = with_row(row);
-            const Sums sums = lit(layout, omni({4.0f, 32.97f, 0.97f}, 500.0f));
-            CAPTURE(row);
-            CHECK((sums[tests::leaf_at(layout, {50, 32, 0}) * 3] > 0) == is_lit);
-            CHECK(sums[tests::leaf_at(layout, {40, 32, 0}) * 3] > 0);
+        for (const int before : {0, 1020}) {
+            for (const auto& [row, is_lit] : {std::pair{0, false},
+                                              {12, false},
+                                              {13, true},
+                                              {18, true},
+                                              {22, true},
+                                              {23, false},
+                                              {30, false}}) {
+                const gi::CellLayout layout = with_row(before, row);
+                const Sums sums = lit(layout, omni({4.0f, 32.97f, 0.97f}, 500.0f));
+                CAPTURE(before);
+                CAPTURE(row);
+                CHECK((sums[tests::leaf_at(layout, {50, 32, 0}) * 3] > 0) == is_lit);
+                CHECK(sums[tests::leaf_at(layout, {40, 32, 0}) * 3] > 0);
+            }
         }
     }
 

@@ -91,6 +91,8 @@ struct History {
         d.type = static_cast<LightType>(random() % 3);
         d.color = {number(0, 1), number(0, 1), number(0, 1), 1.0f};
         d.energy = number(0, 4);
+        d.indirect_energy = number(0, 2);
+        d.negative = random() % 8 == 0;
         d.range_m = number(1, 16);
         d.attenuation = number(0.2f, 3);
         d.spot_angle_deg = number(5, 85);
