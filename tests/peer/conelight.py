@@ -1,5 +1,6 @@
 """Runs a scene in Conelight: picture, baked probe data, timings."""
 import json
+import os
 import subprocess
 from pathlib import Path
 
@@ -8,8 +9,9 @@ class ConelightFailed(Exception):
     pass
 
 
-def call(program, *words):
-    done = subprocess.run([str(program), *map(str, words)], capture_output=True, text=True)
+def call(program, *words, extra=None):
+    done = subprocess.run([str(program), *map(str, words)], capture_output=True, text=True,
+                          env={**os.environ, **(extra or {})})
     if done.returncode:
         raise ConelightFailed((done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1])
 
@@ -20,12 +22,12 @@ def overrides(edits):
     return [word for (node, name), value in last.items() for word in ("--set", f"{node}:{name}={value}")]
 
 
-def run(program, scene, folder, size, quality="high", edits=(), mode="cones"):
+def run(program, scene, folder, size, quality="high", edits=(), mode="cones", extra=None):
     """Returns {"picture": Path, "bake_ms", "relight_ms", "frame_ms", ...}."""
     folder.mkdir(parents=True, exist_ok=True)
     picture, stats = folder / f"{mode}_{quality}.png", folder / f"{mode}_{quality}.json"
     call(program, "render", scene, "-q", "--gi", mode, "--quality", quality, "--size", "%dx%d" % tuple(size), "-o", picture,
-         "--stats", stats, *overrides(edits))
+         "--stats", stats, *overrides(edits), extra=extra)
     return {"picture": picture, **json.loads(stats.read_text())}
 
 

@@ -101,10 +101,11 @@ def copy_project(scene, folder):
     return scene.relative_to(root)
 
 
-def run(scene, folder, size, quality="high", edits=(), off=False):
+def run(scene, folder, size, quality="high", edits=(), off=False, extra=None):
     """Draws `scene` (Path) with a copy of its project in `folder`; bakes the probes that have no data.
 
     edits: (node, property, value as text), made one after the other while the scene is shown.
+    extra: more of Godot's environment.
     Returns {"picture": Path, "bake_ms", "frame_ms", "data": {probe's name: Path}}.
     """
     inside = copy_project(scene, folder)
@@ -112,7 +113,9 @@ def run(scene, folder, size, quality="high", edits=(), off=False):
     (folder / "project.godot").write_text(PROJECT % (*size, "true" if quality == "high" else "false"))
     (folder / "peer_main.gd").write_text(SCRIPT % words)
     (folder / "peer_main.tscn").write_text(MAIN)
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", "timeout", "280", "godot3", "--path", str(folder)]
+    variables = ["env", *("%s=%s" % v for v in (extra or {}).items())]
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", *variables, "timeout", "280", "godot3", "--path",
+               str(folder)]
     environment = {**os.environ, "HOME": str(folder)}  # its caches and settings stay in there
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if not (folder / "peer_out.json").exists():

@@ -55,6 +55,12 @@ def data_table(results):
     return table(("baked data", "leaves", "header", "IoU of leaves", "within 1", "equal"), rows)
 
 
+def volume_table(results):
+    rows = ["<td>%s</td>" % r["name"] + "".join(cell(100 * share, "%.5f %%", share > 1e-3) for share in r["volumes"])
+            for r in results]
+    return table(("bytes of the relit volumes that differ, all mips",), rows)
+
+
 def gallery(result):
     rows = ["<h2 id='%s'>%s</h2>" % (result["name"], result["name"])]
     for p in result["pictures"] + result["interchange"]:
@@ -67,5 +73,5 @@ def gallery(result):
 def page(results):
     return ("<!doctype html><meta charset='utf-8'><title>Conelight and Godot 3.2.3</title><style>%s</style>"
             "<h1>Conelight and Godot 3.2.3</h1><p>Left Godot (or the reference), middle Conelight (or the compared), right "
-            "their difference times 8.</p>%s%s%s") % (STYLE, flip_table(results), data_table(results),
-                                                     "".join(gallery(r) for r in results))
+            "their difference times 8.</p>%s%s%s%s") % (STYLE, flip_table(results), data_table(results), volume_table(results),
+                                                       "".join(gallery(r) for r in results))

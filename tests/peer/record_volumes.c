@@ -1,6 +1,8 @@
 /* Preloaded into a program (LD_PRELOAD), writes every upload of a 3D texture's level to $RECORD_VOLUMES/ID_LEVEL.bin:
- * eight int32 (texture name, level, width, height, depth, bytes, format, 0) and the bytes. A later upload of the same
- * level replaces the file. Works whatever way the program finds its GL functions. */
+ * eight int32 (texture name, level, width, height, depth, bytes, format, 0) and RGBA8 texels. A later upload of the
+ * same level replaces the file. Levels of DXT5 blocks, which Mesa refuses for 3D textures (Godot then draws black), are
+ * decoded and uploaded as RGBA8, so that the program shows what a graphics card would.
+ * Works whatever way the program finds its GL functions. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdint.h>
@@ -8,18 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { kTexture3D = 0x806F, kBinding3D = 0x806A, kRgba = 0x1908, kUnsignedByte = 0x1401 };
+enum { kTexture3D = 0x806F, kBinding3D = 0x806A, kRgba = 0x1908, kRgba8 = 0x8058, kUnsignedByte = 0x1401, kDxt5 = 0x83F3 };
 
 typedef void (*GetIntegerv)(unsigned, int *);
 typedef void (*SubImage)(unsigned, int, int, int, int, int, int, int, unsigned, unsigned, const void *);
 typedef void (*CompressedSubImage)(unsigned, int, int, int, int, int, int, int, unsigned, int, const void *);
 typedef void (*CompressedImage)(unsigned, int, unsigned, int, int, int, int, int, const void *);
+typedef void (*Image)(unsigned, int, int, int, int, int, int, unsigned, unsigned, const void *);
 typedef void *(*Lookup)(const char *);
 
 static GetIntegerv real_get_integerv;
 static SubImage real_sub_image;
 static CompressedSubImage real_compressed;
 static CompressedImage real_compressed_image;
+static Image real_image;
 static Lookup real_lookup;
 static Lookup real_egl_lookup;
 
@@ -46,17 +50,63 @@ static void sub_image(unsigned target, int level, int x, int y, int z, int w, in
     real_sub_image(target, level, x, y, z, w, h, d, format, type, data);
 }
 
+/* The 16 texels of a block, by the format's own rules. */
+static void decode_block(const uint8_t *block, uint8_t texels[16][4]) {
+    uint64_t alpha_codes = 0;
+    uint32_t color_codes = 0;
+    int colors[4][3], alphas[8] = {block[0], block[1], 0, 0, 0, 0, 0, 255};
+    for (int i = 5; i >= 0; --i)
+        alpha_codes = alpha_codes << 8 | block[2 + i];
+    for (int i = 3; i >= 0; --i)
+        color_codes = color_codes << 8 | block[12 + i];
+    for (int i = 2; i < 8 && alphas[0] > alphas[1]; ++i)
+        alphas[i] = (alphas[0] * (8 - i) + alphas[1] * (i - 1)) / 7;
+    for (int end = 0; end < 2; ++end) {
+        int code = block[8 + 2 * end] | block[9 + 2 * end] << 8;
+        int r = code >> 11, g = code >> 5 & 63, b = code & 31;
+        colors[end][0] = r << 3 | r >> 2;
+        colors[end][1] = g << 2 | g >> 4;
+        colors[end][2] = b << 3 | b >> 2;
+    }
+    for (int c = 0; c < 3; ++c) {
+        colors[2][c] = (2 * colors[0][c] + colors[1][c]) / 3;
+        colors[3][c] = (colors[0][c] + 2 * colors[1][c]) / 3;
+    }
+    for (int i = 0; i < 16; ++i) {
+        for (int c = 0; c < 3; ++c)
+            texels[i][c] = (uint8_t)colors[color_codes >> (2 * i) & 3][c];
+        texels[i][3] = (uint8_t)alphas[alpha_codes >> (3 * i) & 7];
+    }
+}
+
+/* Uploads a level of blocks as texels; 0 if that is not possible. */
+static int show_blocks(int level, int w, int h, int d, int bytes, unsigned format, const uint8_t *blocks) {
+    if (format != kDxt5 || !blocks || !real_image || bytes != w * h * d)
+        return 0;
+    uint8_t *rgba = malloc((size_t)bytes * 4), texels[16][4];
+    for (int block = 0; block < bytes / 16; ++block) {
+        int x = block % (w / 4) * 4, y = block / (w / 4) % (h / 4) * 4, z = block / (w / 4) / (h / 4);
+        decode_block(blocks + block * 16, texels);
+        for (int row = 0; row < 4; ++row)
+            memcpy(rgba + (((size_t)z * h + y + row) * w + x) * 4, texels[row * 4], 16);
+    }
+    record(level, w, h, d, bytes * 4, kRgba, rgba);
+    real_image(kTexture3D, level, kRgba8, w, h, d, 0, kRgba, kUnsignedByte, rgba);
+    free(rgba);
+    return 1;
+}
+
 static void compressed(unsigned target, int level, int x, int y, int z, int w, int h, int d, unsigned format, int bytes,
                        const void *data) {
-    if (target == kTexture3D)
-        record(level, w, h, d, bytes, format, data);
+    if (target == kTexture3D && x == 0 && y == 0 && z == 0 && show_blocks(level, w, h, d, bytes, format, data))
+        return;
     real_compressed(target, level, x, y, z, w, h, d, format, bytes, data);
 }
 
 static void compressed_image(unsigned target, int level, unsigned format, int w, int h, int d, int border, int bytes,
                              const void *data) {
-    if (target == kTexture3D)
-        record(level, w, h, d, bytes, format, data);
+    if (target == kTexture3D && show_blocks(level, w, h, d, bytes, format, data))
+        return;
     real_compressed_image(target, level, format, w, h, d, border, bytes, data);
 }
 
@@ -69,6 +119,8 @@ static void *replaced(const char *name, void *found) {
         return found;
     if (!strcmp(name, "glGetIntegerv"))
         real_get_integerv = (GetIntegerv)found;
+    if (!strcmp(name, "glTexImage3D"))
+        real_image = (Image)found;
     if (!strcmp(name, "glTexSubImage3D")) {
         real_sub_image = (SubImage)found;
         return (void *)sub_image;

@@ -17,6 +17,7 @@ import godot
 import page
 import pictures
 import probe_data
+import volumes
 from given_data import scene_with_data
 from make_scenes import write_scenes
 
@@ -43,16 +44,16 @@ def scenes_of(paths, work):
     return [s.resolve() for p in paths for s in (sorted(p.glob("*.tscn")) if p.is_dir() else [p])]
 
 
-def godot_run(scene, folder, size, **more):
-    """godot.run(), or what it made last time of the same."""
-    words = json.dumps([size, sorted(more.items())], default=str) + godot.SCRIPT
+def godot_run(scene, folder, size, recorder, records, **more):
+    """godot.run() with its volumes recorded, or what it made last time of the same."""
+    words = json.dumps([size, sorted(more.items())], default=str) + godot.SCRIPT + volumes.SOURCE.read_text()
     key = hashlib.sha256(words.encode() + scene.read_bytes()).hexdigest()
     kept = folder.with_name(folder.name + ".json")
     if kept.exists():
         said = json.loads(kept.read_text())
         if said["key"] == key and Path(said["picture"]).exists():
             return {**said, "picture": Path(said["picture"]), "data": {n: Path(p) for n, p in said["data"].items()}}
-    said = {"key": key, **godot.run(scene, folder, size, **more)}
+    said = {"key": key, **godot.run(scene, folder, size, **more, extra=volumes.environment(recorder, records))}
     kept.write_text(json.dumps(said, default=str))
     return said
 
@@ -71,20 +72,24 @@ def compare_scene(scene, folder, size, o):
     theirs, ours, shown = {}, {}, []
     for kind in ("high", "low", "off"):
         quality, mode = ("high", "off") if kind == "off" else (kind, "cones")
-        theirs[kind] = godot_run(scene, folder / ("godot_" + kind), size, quality=quality, edits=edits, off=kind == "off")
-        ours[kind] = conelight.run(o.program, scene, folder / "conelight", size, quality, edits, mode)
+        records = [folder / ("volumes_%s_%s" % (program, kind)) for program in ("godot", "conelight")]
+        theirs[kind] = godot_run(scene, folder / ("godot_" + kind), size, o.recorder, records[0], quality=quality,
+                                 edits=edits, off=kind == "off")
+        ours[kind] = conelight.run(o.program, scene, folder / "conelight", size, quality, edits, mode,
+                                   volumes.environment(o.recorder, records[1]))
         shown.append(compare(kind, theirs[kind]["picture"], ours[kind]["picture"], folder))
     baked = conelight.bake(o.program, scene, folder / "conelight_data")
     data = {n: probe_data.match(baked[n], p) for n, p in theirs["high"]["data"].items() if n in baked}
     exchanged = [] if o.no_interchange else list(interchange(scene, folder, size, o, edits, theirs["high"], baked))
     times = {"Godot": {k: theirs["high"][k] for k in ("bake_ms", "frame_ms")},
              "Conelight": {k: ours["high"][k] for k in ("bake_ms", "relight_ms", "frame_ms")}}
-    return {"name": scene.stem, "pictures": shown, "interchange": exchanged, "data": data, "times": times}
+    relit = volumes.match(folder / "volumes_conelight_high", folder / "volumes_godot_high")
+    return {"name": scene.stem, "pictures": shown, "interchange": exchanged, "data": data, "times": times, "volumes": relit}
 
 
 def interchange(scene, folder, size, o, edits, theirs, baked):
     given = scene_with_data(scene, folder / "with_our_data", {n: baked[n] for n in theirs["data"]})
-    drawn = godot_run(given, folder / "godot_our_data", size, edits=edits)
+    drawn = godot_run(given, folder / "godot_our_data", size, o.recorder, folder / "volumes_godot_our_data", edits=edits)
     yield compare("Godot draws our data", theirs["picture"], drawn["picture"], folder)
     given = scene_with_data(scene, folder / "with_godot_data", theirs["data"])
     drawn = conelight.run(o.program, given, folder / "conelight_godot_data", size, edits=edits)
@@ -96,12 +101,14 @@ def line_of(result):
     words = ["%s %.4f (%d)" % (p["label"], p["flip"], p["greatest"]) for p in result["pictures"] + result["interchange"]]
     words += ["%s: header %s, IoU %.5f, within 1 %.5f" % (n, "equal" if d["header"] else "DIFFERS", d["overlap"],
                                                          d["within_one"]) for n, d in result["data"].items()]
+    words += ["volume bytes that differ %.5f %%" % (100 * share) for share in result["volumes"]]
     return "%-16s %s" % (result["name"], "; ".join(words))
 
 
 def main():
     o = options()
     size = tuple(int(n) for n in o.size.split("x"))
+    o.recorder = volumes.build_recorder(o.work)
     results, failed = [], 0
     for scene in scenes_of(o.scene, o.work):
         try:
