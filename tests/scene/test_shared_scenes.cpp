@@ -1,6 +1,9 @@
 #include "tests/scene/text_scene.h"
+#include "tests/servers/gi/agreement.h"
+#include "tests/servers/gi/oracle_probe.h"
 #include "tests/shared_dir.h"
 
+#include "scene/3d/gi_probe.h"
 #include "scene/io/inspect.h"
 #include "scene/io/scene_packer.h"
 #include "scene/io/text_writer.h"
@@ -154,5 +157,35 @@ TEST_SUITE("scene/io/shared") {
             triangles += surface.index_count / 3;
         }
         CHECK(triangles == 262267);
+    }
+
+    TEST_CASE("Sponza bakes to Godot's cells") {
+        const std::optional<fs::path> shared = cl::tests::shared_dir();
+        if (!shared) {
+            MESSAGE("skipped: no reference material");
+            return;
+        }
+        cl::tests::register_types();
+        const fs::path file = *shared / "assets/gltf/Sponza/sponza_text.tscn";
+        Diagnostics diagnostics;
+        ResourceLoader loader(ProjectPaths::containing(file), diagnostics);
+        const Expected<Ref<PackedScene>> scene = loader.load_scene(file);
+        REQUIRE(scene.has_value());
+        const Expected<std::unique_ptr<Node>> root = (*scene)->instance(diagnostics);
+        REQUIRE(root.has_value());
+        auto* probe = dynamic_cast<GIProbe*>((*root)->get_node("Probe"));
+        REQUIRE(probe != nullptr);
+        REQUIRE(probe->bake(root->get()).has_value());
+        const Expected<gi::Octree> ours = gi::decode_octree(probe->data()->data().dynamic_data);
+        const Expected<gi::Octree> theirs = gi::decode_octree(
+            cl::tests::load_dynamic_data(*shared / "assets/godot-pictures/sponza_text_Probe.tres.xz"));
+        REQUIRE(ours.has_value());
+        REQUIRE(theirs.has_value());
+        const cl::tests::Agreement a = cl::tests::agreement(*ours, *theirs);
+        const double share = double(a.leaves_within_one) / double(a.common);
+        MESSAGE("Sponza: " << a.common << " leaves in both, " << a.ours_only << " ours only, "
+                           << a.theirs_only << " theirs only; " << 100.0 * share << " % within 1");
+        CHECK(double(a.common) >= 0.999 * double(a.common + a.ours_only + a.theirs_only));
+        CHECK(share >= 0.995); // JPEGs are decoded by another library
     }
 }
