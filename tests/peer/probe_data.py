@@ -16,8 +16,7 @@ class Data:
             name, equals, rest = line.partition(" = ")
             if equals and name in ("bounds", "cell_size", "to_cell_xform", "dynamic_range", "energy", "bias", "normal_bias",
                                    "propagation", "interior", "compress"):
-                # Godot writes six digits.
-                self.properties[name] = re.sub(r"-?[\d.]+(e-?\d+)?", lambda m: "%.5g" % float(m.group()), rest)
+                self.properties[name] = rest
         begin = text.index("dynamic_data = PoolIntArray(") + len("dynamic_data = PoolIntArray(")
         ints = np.array(text[begin:text.index(")", begin)].split(","), dtype=np.int64).astype(np.uint32)
         self.header = ints[:7].tolist()
@@ -38,6 +37,20 @@ class Data:
         return key[order], self.cells[index[order], 8:]
 
 
+NUMBER = re.compile(r"-?\d[\d.]*(?:e[-+]?\d+)?")
+
+
+def same_property(a, b):
+    """Equal texts but for the digits after the sixth, which Godot does not write."""
+    numbers = [[float(n) for n in NUMBER.findall(text)] for text in (a, b)]
+    return NUMBER.sub("", a) == NUMBER.sub("", b) and np.allclose(*numbers, rtol=1e-5, atol=1e-6)
+
+
+def same_header(a, b):
+    return (a.header == b.header and a.properties.keys() == b.properties.keys() and
+            all(same_property(v, b.properties[k]) for k, v in a.properties.items()))
+
+
 def bytes_of(words):
     return np.ascontiguousarray(words.astype("<u4")).view(np.uint8).reshape(len(words), -1).astype(int)
 
@@ -49,6 +62,6 @@ def match(ours, theirs):
     union = len(a.keys) + len(b.keys) - len(ia)
     difference = np.abs(bytes_of(a.leaves[ia]) - bytes_of(b.leaves[ib]))
     near = (difference <= 1).all(axis=1)
-    return {"header": a.header == b.header and a.properties == b.properties,
+    return {"header": same_header(a, b),
             "overlap": len(ia) / union if union else 1.0, "within_one": float(near.mean()) if len(near) else 1.0,
             "equal": float((difference == 0).all(axis=1).mean()) if len(near) else 1.0, "leaves": len(b.keys)}
