@@ -25,8 +25,8 @@ Rasterizer& VisualServer::rasterizer() {
     return *impl_->rasterizer;
 }
 
-/// Each way of finding indirect light keeps its own state, and only the one in use costs anything: none under a
-/// rasteriser that follows light itself.
+/// Each way of finding indirect light keeps its own state, and only the one in use costs anything: none under
+/// a rasteriser that follows light itself.
 Status VisualServer::Impl::step_gi(FieldDriver::Rest rest) {
     if (rasterizer->frame_contents() == FrameContents::WholeScene) {
         return {};

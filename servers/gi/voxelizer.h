@@ -34,7 +34,8 @@ struct CaptureInput {
 };
 [[nodiscard]] MaterialCapture capture_material(const CaptureInput& input);
 
-/// Godot's cubic resize to RGBA8 (spec gi-bake section 3), byte for byte. @param image  RGBA8, or RGB8 with alpha 255
+/// Godot's cubic resize to RGBA8 (spec gi-bake section 3), byte for byte. @param image  RGBA8, or RGB8 with
+/// alpha 255
 [[nodiscard]] Image resize_cubic_rgba8(const Image& image, glm::ivec2 size);
 
 /// Triangles to plot: one surface of one instance. Spans live until voxelize() returns.
