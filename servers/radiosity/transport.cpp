@@ -24,6 +24,11 @@ CellGrid grid_of_box(const Transform& world_from_box, const AABB& box, int cells
     return grid;
 }
 
+AABB with_margin(const AABB& box, int cells) {
+    const float longest_m = std::max(box.size.x, std::max(box.size.y, box.size.z));
+    return box.grown(longest_m * float(kProbeMargin) / float(std::max(cells - 2 * kProbeMargin, 1)));
+}
+
 AABB bounds_of(const StillScene& scene) {
     AABB box{scene.positions.empty() ? glm::vec3(0.0f) : scene.positions[0], glm::vec3(0.0f)};
     for (const glm::vec3& p : scene.positions) {
@@ -43,7 +48,7 @@ std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeB
     std::vector<CellGrid> grids;
     AABB all = transformed(probes[0].world_from_probe, probes[0].box);
     for (const ProbeBox& p : probes) {
-        grids.push_back(grid_of_box(p.world_from_probe, p.box, p.cells));
+        grids.push_back(grid_of_box(p.world_from_probe, with_margin(p.box, p.cells), p.cells));
         all = all.merged(transformed(p.world_from_probe, p.box));
     }
     const AABB bounds = bounds_of(scene);

@@ -41,8 +41,12 @@ struct Transport {
 struct ProbeBox {
     Transform world_from_probe; ///< orthonormal
     AABB box;                   ///< [m]
-    int cells = 128;            ///< of its grid along the longest axis
+    int cells = 128;            ///< of its grid along the longest axis, with kProbeMargin at either end
 };
+
+/// Cells of a probe's grid that stand out of its box at either end: there its light fades to plain ambient
+/// light, so that all that the box holds has it in full.
+inline constexpr int kProbeMargin = 4;
 
 /// @param stop  give up as soon as it turns true. @return Cancelled, or what Embree says.
 [[nodiscard]] Expected<std::shared_ptr<const Transport>>

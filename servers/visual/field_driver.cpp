@@ -321,7 +321,7 @@ void FieldDriver::describe(RID rid, const Instance& instance, GIProbeShading& sh
             const radiosity::CellGrid& cells = field.transport->patches.grids[i].cells;
             shading.field = field.upload;
             shading.field_cells_from_world = cells.cells_from_world;
-            shading.field_cells = field.geometry.probes[i].box.size / cells.cell_m;
+            shading.field_cells = glm::vec3(cells.dims);
             shading.field_bricks = field.map->probes[i].bricks;
             shading.field_first_brick = int(field.map->probes[i].first_brick);
             shading.field_air_z = field.map->probes[i].air_z;

@@ -3,7 +3,7 @@
 // filled   by drivers/gles3/draw_block.cpp, once a draw
 struct GIProbe {
     mat4 cells_from_view;
-    vec3 bounds;           // size of the box [cells]
+    vec3 bounds;           // size of the box, or of the field's grid [cells]
     float multiplier;      // radiance from texture values
     vec3 uv_from_cells;    // texture coordinates
     float bias;            // where cones start [cells]

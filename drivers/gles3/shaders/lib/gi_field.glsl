@@ -9,7 +9,7 @@ uniform sampler2D field_light;
 uniform sampler3D field_air;
 
 const int kFieldRow = 1024; // drivers/gles3/gi_field_storage.h
-const float kFieldFade = 4.0; // cells over which a field fades to plain ambient light at its box
+const float kFieldFade = 4.0; // cells over which a field fades to plain ambient light: its grid's margin about the box
 
 ivec2 field_texel(int entry) {
     return ivec2(entry & (kFieldRow - 1), entry >> 10);
@@ -136,7 +136,7 @@ float bump_factor(GIProbe probe, vec3 at, vec3 normal, vec3 bumped) {
     return max(mean + dot(slope, bumped), least) / max(mean + dot(slope, normal), least);
 }
 
-/// 1 inside a probe's box, falling to 0 at its faces.
+/// 1 inside a probe's box, falling to 0 at the faces of its grid.
 float field_share(GIProbe probe, vec3 at) {
     vec3 margin = min(at, probe.bounds - at);
     return clamp(min(margin.x, min(margin.y, margin.z)) / kFieldFade, 0.0, 1.0);
