@@ -28,7 +28,8 @@ void add_rays(const StillScene& scene, const RayScene& rays, const Patches& patc
             }
             glm::vec3 facing = scene.normal(hit.triangle);
             facing = glm::dot(facing, batch[i].direction) > 0.0f ? -facing : facing;
-            const uint32_t patch = patches.find(batch[i].origin + hit.t * batch[i].direction, facing);
+            const uint32_t patch =
+                patches.find_seen(rays, batch[i].origin + hit.t * batch[i].direction, facing);
             if (patch != kNoPatch) {
                 fan.patches.push_back(patch);
                 fan.patch_rays.push_back(number);

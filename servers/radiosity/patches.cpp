@@ -140,29 +140,34 @@ glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) 
 
 /// What a few rays from a point of a surface meet.
 struct Outlook {
-    int backs = 0;            ///< backs of surfaces
+    int backs = 0;   ///< backs of surfaces
+    int unclear = 0; ///< a front and a back in one place: two solids that touch, or a wall of no thickness
     float openness_m = 1e30f; ///< harmonic mean of the distances
 };
 
 template <size_t kCount>
-Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked) noexcept {
-    std::array<Hit, kCount> hits;
-    rays.trace(asked, hits);
+Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float cell_m) noexcept {
+    std::array<Hit, kCount> fronts, backs;
+    rays.trace_side(RayScene::Side::Front, asked, fronts);
+    rays.trace_side(RayScene::Side::Back, asked, backs);
     Outlook outlook;
     float inverse_sum = 0.0f;
-    for (const Hit& h : hits) {
-        if (h.triangle != kMiss) {
-            outlook.backs += h.is_front ? 0 : 1;
-            inverse_sum += 1.0f / std::max(h.t, 1e-6f);
-        }
+    for (size_t i = 0; i < kCount; ++i) {
+        const float front_m = fronts[i].triangle == kMiss ? 1e30f : fronts[i].t;
+        const float back_m = backs[i].triangle == kMiss ? 1e30f : backs[i].t;
+        const float nearest_m = std::min(front_m, back_m);
+        const bool one_place = nearest_m < 1e30f && std::abs(front_m - back_m) < kNudge_cells * cell_m;
+        outlook.unclear += one_place ? 1 : 0;
+        outlook.backs += !one_place && back_m < front_m ? 1 : 0;
+        inverse_sum += nearest_m < 1e30f ? 1.0f / std::max(nearest_m, 1e-6f) : 0.0f;
     }
     outlook.openness_m = inverse_sum > 0.0f ? float(kCount) / inverse_sum : 1e30f;
     return outlook;
 }
 
 /// How open the space before a point is [m]; less than 0 if most rays meet the backs of surfaces: it lies
-/// inside a solid. A few rays settle it where none does; more are asked otherwise, as faces of two solids
-/// that touch may hide one another's backs.
+/// inside a solid. A few rays settle it where none does; more are asked otherwise, and those that meet faces
+/// of two solids that touch do not count.
 float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal, float cell_m) noexcept {
     const CosineFrame frame(normal);
     const glm::vec3 origin = lifted(point, normal, cell_m);
@@ -171,16 +176,17 @@ float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& no
         const glm::vec2 u = i == 0 ? glm::vec2(0.0f) : glm::vec2(0.64f, 0.25f * float(i) - 0.125f);
         few[i] = {origin, frame.direction(u)};
     }
-    const Outlook first = look(rays, few);
-    if (first.backs == 0) {
+    const Outlook first = look(rays, few, cell_m);
+    if (first.backs + first.unclear == 0) {
         return first.openness_m;
     }
     std::array<Ray, 24> many;
     for (uint32_t i = 0; i < many.size(); ++i) {
         many[i] = {origin, frame.direction(r2_point(i, glm::vec2(0.5f)))};
     }
-    const Outlook second = look(rays, many);
-    return second.backs * 2 >= int(many.size()) ? -1.0f : second.openness_m;
+    const Outlook second = look(rays, many, cell_m);
+    const int clear = int(many.size()) - second.unclear;
+    return clear > 0 && second.backs * 2 >= clear ? -1.0f : second.openness_m;
 }
 
 /// A patch before it gets its number.
@@ -439,6 +445,70 @@ uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const no
             }
         }
         return best;
+    }
+    return kNoPatch;
+}
+
+namespace {
+
+bool sees(const RayScene& rays, const Patches& patches, const glm::vec3& point, const glm::vec3& facing,
+          uint32_t patch) noexcept {
+    const float cell_m = patches.grids[patches.grid[patch]].cells.cell_m;
+    const float lift_m = 2.0f * kLift * cell_m + 0.12f * glm::distance(point, patches.position[patch]);
+    return !rays.is_blocked(point + lift_m * facing,
+                            patches.position[patch] + lift_m * patches.normal[patch]);
+}
+
+/// The nearest patches about a point that face its way, at most as many as there is room for.
+/// @return how many
+size_t nearest_around(const Patches& patches, const Patches::Grid& grid, const glm::vec3& point,
+                      const glm::vec3& facing, std::span<std::pair<float, uint32_t>> out) noexcept {
+    const glm::ivec3 home(glm::floor(grid.cells.cells_from_world.xform(point)));
+    size_t count = 0;
+    for (int i = 0; i < 27; ++i) {
+        const uint32_t cell = grid.index.find(home + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+        if (cell == CellIndex::kNone) {
+            continue;
+        }
+        for (uint32_t p = grid.first[cell]; p < grid.first[cell + 1]; ++p) {
+            if (glm::dot(patches.normal[p], facing) < kSameFacing) {
+                continue;
+            }
+            std::pair<float, uint32_t> found{glm::distance(patches.position[p], point), p};
+            for (size_t k = 0; k < out.size(); ++k) { // insertion into a short sorted list
+                if (k == count) {
+                    out[count++] = found;
+                    break;
+                }
+                if (found < out[k]) {
+                    std::swap(found, out[k]);
+                }
+            }
+        }
+    }
+    return count;
+}
+
+} // namespace
+
+uint32_t Patches::find_seen(const RayScene& rays, const glm::vec3& point,
+                            const glm::vec3& facing) const noexcept {
+    const uint32_t own = find(point, facing);
+    if (own == kNoPatch) {
+        return own;
+    }
+    const Grid& g = grids[grid[own]];
+    const uint32_t cell = g.index.find(g.cells.cell_at(order[own]));
+    const bool alone = g.first[cell + 1] - g.first[cell] == 1;
+    if (alone || sees(rays, *this, point, facing, own)) {
+        return own;
+    }
+    std::array<std::pair<float, uint32_t>, 6> around;
+    const size_t count = nearest_around(*this, g, point, facing, around);
+    for (size_t i = 0; i < count; ++i) {
+        if (around[i].second != own && sees(rays, *this, point, facing, around[i].second)) {
+            return around[i].second;
+        }
     }
     return kNoPatch;
 }

@@ -16,6 +16,12 @@ struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene bvh = nullptr;
 
+    [[nodiscard]] bool is_front(uint32_t triangle, const glm::vec3& direction) const noexcept {
+        const Surface& surface = scene->surfaces[scene->surface_of[triangle]];
+        return surface.two_sided || glm::dot(normals[triangle], direction) < 0.0f;
+    }
+    void trace(RTCIntersectContext& context, std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
+
     ~Impl() {
         if (bvh) {
             rtcReleaseScene(bvh);
@@ -40,6 +46,29 @@ void pass_holes(const RTCFilterFunctionNArguments* args) {
         const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
         const glm::vec2 at(RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i));
         if (scene.is_hole(triangle, at)) {
+            args->valid[i] = 0;
+        }
+    }
+}
+
+/// What trace_side() hands to its filter.
+struct SideContext {
+    RTCIntersectContext embree; // first: Embree knows this part
+    const RayScene::Impl* impl;
+    RayScene::Side side;
+};
+
+/// Lets rays through all but one side of surfaces.
+void pass_other_side(const RTCFilterFunctionNArguments* args) {
+    const SideContext& context = *reinterpret_cast<const SideContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) {
+            continue;
+        }
+        const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+        const glm::vec3 direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                                  RTCRayN_dir_z(args->ray, args->N, i));
+        if (context.impl->is_front(triangle, direction) != (context.side == RayScene::Side::Front)) {
             args->valid[i] = 0;
         }
     }
@@ -86,7 +115,8 @@ Expected<RayScene> RayScene::create(const StillScene& scene) {
         return library_error(nullptr);
     }
     impl->bvh = rtcNewScene(impl->device);
-    rtcSetSceneFlags(impl->bvh, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(impl->bvh,
+                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     if (!scene.triangles.empty()) {
         RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -120,9 +150,21 @@ Expected<RayScene> RayScene::create(const StillScene& scene) {
 }
 
 void RayScene::trace(std::span<const Ray> rays, std::span<Hit> hits) const noexcept {
-    std::array<RTCRayHit, kBatch> batch;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    impl_->trace(context, rays, hits);
+}
+
+void RayScene::trace_side(Side side, std::span<const Ray> rays, std::span<Hit> hits) const noexcept {
+    SideContext context{{}, impl_.get(), side};
+    rtcInitIntersectContext(&context.embree);
+    context.embree.filter = pass_other_side;
+    impl_->trace(context.embree, rays, hits);
+}
+
+void RayScene::Impl::trace(RTCIntersectContext& context, std::span<const Ray> rays,
+                           std::span<Hit> hits) const noexcept {
+    std::array<RTCRayHit, kBatch> batch;
     for (size_t begin = 0; begin < rays.size(); begin += kBatch) {
         const size_t count = std::min(kBatch, rays.size() - begin);
         for (size_t i = 0; i < count; ++i) {
@@ -130,7 +172,7 @@ void RayScene::trace(std::span<const Ray> rays, std::span<Hit> hits) const noexc
             batch[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
             batch[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         }
-        rtcIntersect1M(impl_->bvh, &context, batch.data(), unsigned(count), sizeof(RTCRayHit));
+        rtcIntersect1M(bvh, &context, batch.data(), unsigned(count), sizeof(RTCRayHit));
         for (size_t i = 0; i < count; ++i) {
             const RTCRayHit& got = batch[i];
             Hit& hit = hits[begin + i];
@@ -141,9 +183,7 @@ void RayScene::trace(std::span<const Ray> rays, std::span<Hit> hits) const noexc
             hit.triangle = got.hit.primID;
             hit.t = got.ray.tfar;
             hit.barycentric = {got.hit.u, got.hit.v};
-            const Surface& surface = impl_->scene->surfaces[impl_->scene->surface_of[hit.triangle]];
-            hit.is_front =
-                surface.two_sided || glm::dot(impl_->normals[hit.triangle], rays[begin + i].direction) < 0.0f;
+            hit.is_front = is_front(hit.triangle, rays[begin + i].direction);
         }
     }
 }

@@ -42,6 +42,9 @@ public:
 
     /// The nearest hit of each ray; hits.size() == rays.size().
     void trace(std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
+    enum class Side : uint8_t { Front, Back };
+    /// The nearest hit on one side of surfaces, whatever shows its other side before it.
+    void trace_side(Side side, std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
     /// True if anything lies on a ray's way.
     [[nodiscard]] bool is_blocked(const Ray& ray) const noexcept;
     /// True if anything lies between two points.
@@ -49,8 +52,9 @@ public:
         return is_blocked({from, to - from, 1.0f});
     }
 
-private:
     struct Impl;
+
+private:
     explicit RayScene(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
