@@ -1,19 +1,24 @@
 #include "servers/radiosity/field_map.h"
 
+#include "servers/radiosity/slot_places.h"
+
 #include "core/threads.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace cl::radiosity {
 namespace {
 
 // Facings overlap, so that a pixel whose normal differs a little from its patch's still finds it.
-constexpr float kLeastFacing = 0.35f;
+constexpr float kMostAway = 0.35f; ///< a sixth of a right angle past the border between two facings
+constexpr float kOwnFacing = 0.1f;
 constexpr float kGoesOnFacing = 0.5f; ///< cosine between surfaces that are taken for one
 constexpr float kCrack_cells = 0.2f;  ///< a space as narrow as this is not looked into
 constexpr float kMaxRadiance = 65408.0f;
@@ -29,21 +34,31 @@ struct FacingCells {
     std::vector<std::array<uint32_t, FieldMap::kSlots>> slots;
 };
 
-/// Keeps the largest patches that face an axis, of the cell's patches [begin, end). Those in a crack (the
-/// inner sides of two layers of cloth) are left out: they are not what a camera sees, and what is there takes
-/// its neighbours' light.
-std::array<uint32_t, FieldMap::kSlots> choose_slots(const Patches& patches, uint32_t begin, uint32_t end,
-                                                    const glm::vec3& axis, float crack_m) noexcept {
+/// How little less a patch faces an axis of its grid than that which it faces most.
+float turned_away(const CellGrid& grid, const glm::vec3& normal, const glm::vec3& axis) noexcept {
+    const glm::vec3 along = glm::abs(glm::transpose(grid.world_from_cells.basis) * normal) / grid.cell_m;
+    return std::max(along.x, std::max(along.y, along.z)) - glm::dot(normal, axis);
+}
+
+/// Keeps the largest patches that face an axis, of the cell's patches [begin, end); those whose own pixels
+/// ask for this facing before others. Those in a crack (the inner sides of two layers of cloth) are left out:
+/// they are not what a camera sees, and what is there takes its neighbours' light.
+std::array<uint32_t, FieldMap::kSlots> choose_slots(const Patches& patches, const CellGrid& grid,
+                                                    uint32_t begin, uint32_t end, const glm::vec3& axis) {
     std::array<uint32_t, FieldMap::kSlots> slots{kNoPatch, kNoPatch};
-    const auto area = [&](uint32_t patch) { return patch == kNoPatch ? -1.0f : patches.area_m2[patch]; };
+    std::array<std::pair<bool, float>, FieldMap::kSlots> ranks{std::pair{false, -1.0f}, {false, -1.0f}};
     for (uint32_t p = begin; p < end; ++p) {
-        if (glm::dot(patches.normal[p], axis) < kLeastFacing || patches.openness_m[p] < crack_m) {
+        const float away = turned_away(grid, patches.normal[p], axis);
+        if (away > kMostAway || patches.openness_m[p] < kCrack_cells * grid.cell_m) {
             continue;
         }
-        if (area(p) > area(slots[0])) {
+        const std::pair rank{away < kOwnFacing, patches.area_m2[p]};
+        if (rank > ranks[0]) {
             slots = {p, slots[0]};
-        } else if (area(p) > area(slots[1])) {
+            ranks = {rank, ranks[0]};
+        } else if (rank > ranks[1]) {
             slots[1] = p;
+            ranks[1] = rank;
         }
     }
     return slots;
@@ -55,8 +70,7 @@ FacingCells cells_facing(const Patches& patches, size_t grid_index, int facing) 
     const glm::vec3 axis = facing_axis(grid, facing);
     FacingCells out;
     for (size_t cell = 0; cell + 1 < first.size(); ++cell) {
-        const auto slots =
-            choose_slots(patches, first[cell], first[cell + 1], axis, kCrack_cells * grid.cell_m);
+        const auto slots = choose_slots(patches, grid, first[cell], first[cell + 1], axis);
         if (slots[0] != kNoPatch) {
             out.orders.push_back(patches.order[slots[0]]);
             out.slots.push_back(slots);
@@ -82,9 +96,19 @@ public:
         return !t_.rays.is_blocked(patches_.position[a] + lift_m * na, patches_.position[b] + lift_m * nb);
     }
 
+    /// Where the patches of a cell's slots are said to lie.
+    [[nodiscard]] std::array<glm::vec3, FieldMap::kSlots>
+    places(const std::array<uint32_t, FieldMap::kSlots>& slots) const {
+        if (slots[1] == kNoPatch) {
+            return {place_in_cell(patches_, slots[0]), glm::vec3(0.0f)};
+        }
+        return slot_places(t_.rays, *t_.scene, patches_, slots[0], slots[1]);
+    }
+
     /// The two words of a slot. @param find  slots of a cell and facing, or nullptr
     template <typename Find>
-    [[nodiscard]] std::array<uint32_t, 2> joint(uint32_t patch, bool has_second, const Find& find) const {
+    [[nodiscard]] std::array<uint32_t, 2> joint(uint32_t patch, const glm::vec3& where, bool has_second,
+                                                const Find& find) const {
         std::array<uint32_t, 2> words{1u << 13, 0u};
         const glm::ivec3 cell = grid_.cell_at(patches_.order[patch]);
         for (int i = 0; i < 27; ++i) {
@@ -96,8 +120,7 @@ public:
                 words[1] |= 1u << i;
             }
         }
-        const glm::vec3 within = grid_.cells_from_world.xform(patches_.position[patch]) - glm::vec3(cell);
-        const glm::uvec3 place(glm::clamp(within * 8.0f, 0.0f, 7.0f));
+        const glm::uvec3 place(glm::clamp(where * float(kPlaceSteps), 0.0f, float(kPlaceSteps - 1)));
         const uint32_t bits = place.x | place.y << 3 | place.z << 6;
         words[0] |= (bits & 31u) << 27;
         words[1] |= (bits >> 5) << 27 | (has_second ? 1u << 31 : 0u);
@@ -127,9 +150,11 @@ void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) 
     map.joints.resize(joints_at + cells.slots.size() * FieldMap::kSlots * 2);
     parallel_for(cells.slots.size(), 256, [&](size_t begin, size_t end) {
         for (size_t c = begin; c < end; ++c) {
+            const auto places = joiner.places(cells.slots[c]);
             for (size_t s = 0; s < FieldMap::kSlots; ++s) {
                 if (cells.slots[c][s] != kNoPatch) {
-                    const auto words = joiner.joint(cells.slots[c][s], cells.slots[c][1] != kNoPatch, find);
+                    const auto words =
+                        joiner.joint(cells.slots[c][s], places[s], cells.slots[c][1] != kNoPatch, find);
                     std::copy(words.begin(), words.end(),
                               map.joints.begin() +
                                   std::ptrdiff_t(joints_at + (c * FieldMap::kSlots + s) * 2));

@@ -304,19 +304,30 @@ private:
     /// A patch for each space that a cluster borders on.
     void add_spaces(const Cluster& c, const Draft& draft, const CellGrid& grid,
                     std::vector<Draft>& out) const {
-        std::vector<glm::vec3> points = candidates(c, grid);
-        const size_t asked = points.size();
-        std::erase_if(
-            points, [&](const glm::vec3& p) { return openness(rays_, p, draft.normal, grid.cell_m) < 0.0f; });
+        const std::vector<glm::vec3> asked = candidates(c, grid);
+        std::vector<glm::vec3> points;
+        std::vector<float> open_m;
+        for (const glm::vec3& p : asked) {
+            const float here_m = openness(rays_, p, draft.normal, grid.cell_m);
+            if (here_m >= 0.0f) {
+                points.push_back(p);
+                open_m.push_back(here_m);
+            }
+        }
         std::vector<int> space(points.size(), -1);
         for (size_t i = 0; i < points.size(); ++i) {
             if (space[i] < 0) {
                 space[i] = int(i);
                 std::vector<glm::vec3> members = flood(points, i, draft.normal, grid.cell_m, space);
                 Draft one = draft;
+                one.openness_m = 0.0f;
                 one.position = most_central(members);
-                one.openness_m = openness(rays_, one.position, one.normal, grid.cell_m);
-                one.area_m2 = draft.area_m2 * float(members.size()) / float(asked);
+                // As open as its most open point: the others may lie close to a wall.
+                for (size_t j = i; j < points.size(); ++j) {
+                    one.openness_m =
+                        space[j] == int(i) ? std::max(one.openness_m, open_m[j]) : one.openness_m;
+                }
+                one.area_m2 = draft.area_m2 * float(members.size()) / float(asked.size());
                 out.push_back(one);
             }
         }
