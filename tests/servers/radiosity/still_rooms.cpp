@@ -98,7 +98,7 @@ Solution LitRoom::solve(const Lighting& lighting) const {
 }
 
 ProbeBox probe_with_cells(float cell_m, float height_m, const Transform& world_from_probe) {
-    const glm::vec3 size(cell_m * float(kProbeCells), height_m, height_m);
+    const glm::vec3 size(cell_m * float(kProbeCells - 2 * kProbeMargin), height_m, height_m);
     return {world_from_probe, {-0.5f * size, size}};
 }
 
@@ -154,6 +154,12 @@ glm::vec3 place_of(const glm::uvec2& joint) {
     return (glm::vec3(bits & 7u, (bits >> 3) & 7u, (bits >> 6) & 7u) + 0.5f) / 8.0f;
 }
 
+float misfit(const glm::vec3& within, const glm::vec3& normal, const glm::uvec2& joint) {
+    const glm::vec3 apart = within - place_of(joint);
+    const float rise = glm::dot(apart, normal);
+    return glm::dot(apart, apart) + 8.0f * rise * rise;
+}
+
 int facing_of(const glm::vec3& normal) {
     const glm::vec3 size = glm::abs(normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -169,8 +175,8 @@ PixelLight read(const FieldReader& field, const glm::vec3& at, const glm::vec3& 
     if (home_cell >= 0) {
         const glm::uvec2 first = field.joint(home_cell * 2), other = field.joint(home_cell * 2 + 1);
         const glm::vec3 within = behind - glm::vec3(home);
-        const bool second = (first.y >> 31) != 0u &&
-                            glm::distance(within, place_of(other)) < glm::distance(within, place_of(first));
+        const bool second =
+            (first.y >> 31) != 0u && misfit(within, normal, other) < misfit(within, normal, first);
         joint = second ? glm::uvec2(other.x, other.y | 1u << 13) : first;
     }
     const glm::vec3 corner = glm::floor(behind - 0.5f), f = behind - 0.5f - corner;

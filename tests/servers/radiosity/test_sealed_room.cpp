@@ -55,7 +55,8 @@ std::vector<Outside> lights_outside(const Transform& world_from_room) {
     return all;
 }
 
-/// The most light that a patch inside and a pixel inside receive, over the mean of lit patches outside.
+/// The most light that a patch inside receives, its mean, and the mean of pixels inside, over the mean of lit
+/// patches outside; and the share of pixels that found no patch.
 struct Leak {
     float patches = 0.0f, patch_mean = 0.0f, pixels = 0.0f, lost_pixels = 0.0f;
 };
@@ -91,7 +92,7 @@ Leak leak_of(const LitRoom& room, const Transform& world_from_room, const Lighti
     Leak leak{inside / outside, inside_sum / float(inside_count) / outside};
     const std::vector<SurfacePoint> points = points_inside(world_from_room, kInner_m, 60);
     for (const PixelLight& pixel : pixel_lights(room, 0, solution, points)) {
-        leak.pixels = std::max(leak.pixels, luminance(pixel.light) / outside);
+        leak.pixels += luminance(pixel.light) / outside / float(points.size());
         leak.lost_pixels += pixel.found ? 0.0f : 1.0f / float(points.size());
     }
     return leak;

@@ -1,0 +1,187 @@
+#include "tests/servers/radiosity/still_rooms.h"
+
+#include "core/threads.h"
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+using namespace cl;
+using namespace cl::radiosity;
+using namespace cl::tests;
+
+namespace {
+
+Transform turned(float angle_rad, const glm::vec3& euler = {0.3f, 0.0f, 0.2f}) {
+    return {basis_from_euler_yxz({euler.x, angle_rad, euler.z}), {0.013f, -0.021f, 0.017f}};
+}
+
+constexpr float kRoom_m = 1.6f;
+
+/// A room with one coloured wall, a block and a ball in it, lit by a lamp.
+LitRoom furnished_room(const Transform& world_from_room, float cell_m) {
+    RoomBuilder builder(world_from_room);
+    const float scale = glm::length(world_from_room.basis[0]);
+    const uint32_t white = builder.material(glm::vec3(0.7f)), red = builder.material({0.6f, 0.1f, 0.1f});
+    builder.shell(white, kRoom_m, 0.2f);
+    builder.box(red, {-0.72f, 0, 0}, {0.1f, 1.2f, 1.2f});
+    builder.box(white, {0.3f, -0.55f, -0.2f}, {0.4f, 0.5f, 0.4f});
+    builder.ball(white, {-0.2f, -0.5f, 0.3f}, 0.25f);
+    const ProbeBox probe = probe_with_cells(cell_m * scale, 2.2f * scale, world_from_room.orthonormalized());
+    return LitRoom(builder.take(), {&probe, 1});
+}
+
+Lighting lamp_in(const Transform& world_from_room) {
+    Lighting lighting = darkness();
+    lighting.sources = {
+        omni(world_from_room.xform({0.1f, 0.5f, 0.1f}), 3.0f * glm::length(world_from_room.basis[0]))};
+    return lighting;
+}
+
+/// Mean indirect light on what lies inside the room.
+float mean_inside(const LitRoom& room, const Transform& world_from_room, const Solution& solution) {
+    const Patches& patches = room.transport->patches;
+    const Transform room_from_world = world_from_room.inverse();
+    return mean_over(patches, solution.arriving, [&](uint32_t p) {
+        const glm::vec3 at = glm::abs(room_from_world.xform(patches.position[p]));
+        return std::max(at.x, std::max(at.y, at.z)) < 0.5f * kRoom_m + 1e-3f;
+    });
+}
+
+float light_of(const Transform& world_from_room, float cell_m) {
+    const LitRoom room = furnished_room(world_from_room, cell_m);
+    return mean_inside(room, world_from_room, room.solve(lamp_in(world_from_room)));
+}
+
+} // namespace
+
+TEST_SUITE("servers/radiosity/laws") {
+    TEST_CASE("in a closed room of albedo a and emission e the radiance is e / (1 - a) everywhere") {
+        for (float albedo : {0.2f, 0.5f, 0.8f, 0.95f}) {
+            const Transform world_from_room = turned(albedo);
+            RoomBuilder builder(world_from_room);
+            const uint32_t wall = builder.material(glm::vec3(albedo), glm::vec3(0.5f));
+            builder.shell(wall, kRoom_m, 0.2f);
+            builder.box(wall, {0.2f, -0.5f, 0.1f}, {0.4f, 0.6f, 0.4f});
+            const ProbeBox probe = probe_with_cells(0.1f, 2.4f, turned(0.4f));
+            const LitRoom room(builder.take(), {&probe, 1});
+            const Solution solution = room.solve(darkness());
+            const float expected = 0.5f / (1.0f - albedo);
+            CAPTURE(albedo);
+            CHECK(mean_inside(room, world_from_room, solution) == doctest::Approx(expected).epsilon(0.01));
+            float least = 1e30f, most = 0.0f;
+            int lost = 0;
+            for (const PixelLight& pixel :
+                 pixel_lights(room, 0, solution, points_inside(world_from_room, kRoom_m, 40))) {
+                least = pixel.found ? std::min(least, pixel.light.x) : least;
+                most = std::max(most, pixel.light.x);
+                lost += pixel.found ? 0 : 1;
+            }
+            CHECK(lost < 6 * 40 * 40 / 200); // slivers of cells in the edges
+            CHECK(least > 0.92f * expected); // some rays into an edge find no patch
+            CHECK(most < 1.01f * expected);
+        }
+    }
+
+    TEST_CASE("a convex body under an even sky receives the sky's radiance everywhere") {
+        RoomBuilder builder;
+        builder.ball(builder.material(glm::vec3(0.8f)), glm::vec3(0.0f), 0.5f);
+        const ProbeBox probe = probe_with_cells(0.1f, 1.4f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        Lighting lighting = darkness();
+        std::fill(lighting.sky.begin(), lighting.sky.end(), glm::vec3(2.0f));
+        const Solution solution = room.solve(lighting);
+        for (const glm::vec3& light : solution.arriving) {
+            CHECK(light.x == doctest::Approx(2.0f).epsilon(0.01));
+        }
+        for (const Solution::Air& air : solution.air[0]) {
+            CHECK(air.mean.x <= 2.01f); // the ball sends on 0.8 of it at most
+        }
+    }
+
+    TEST_CASE("interior probes get nothing from the sky") {
+        RoomBuilder builder;
+        builder.ball(builder.material(glm::vec3(0.8f)), glm::vec3(0.0f), 0.5f);
+        const ProbeBox probe = probe_with_cells(0.1f, 1.4f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        Lighting lighting = darkness();
+        std::fill(lighting.sky.begin(), lighting.sky.end(), glm::vec3(2.0f));
+        lighting.interior = {true};
+        for (const glm::vec3& light : room.solve(lighting).arriving) {
+            CHECK(light == glm::vec3(0.0f));
+        }
+    }
+
+    TEST_CASE("light stays within 5 % when cells are halved and doubled") {
+        const float fine = light_of(turned(0.2f), 0.04f);
+        CHECK(light_of(turned(0.2f), 0.08f) == doctest::Approx(fine).epsilon(0.05));
+        CHECK(light_of(turned(0.2f), 0.16f) == doctest::Approx(fine).epsilon(0.05));
+    }
+
+    TEST_CASE("a scene that is turned, mirrored, moved or scaled with its probe keeps its light within 2 %") {
+        const float expected = light_of({}, 0.07f);
+        CHECK(light_of(turned(0.5f), 0.07f) == doctest::Approx(expected).epsilon(0.02));
+        CHECK(light_of(turned(2.5f, {-0.6f, 0.0f, 1.1f}), 0.07f) == doctest::Approx(expected).epsilon(0.02));
+        Transform mirrored;
+        mirrored.basis[0] = {-1, 0, 0};
+        CHECK(light_of(mirrored, 0.07f) == doctest::Approx(expected).epsilon(0.02));
+        CHECK(light_of({glm::mat3(1.0f), {100.0f, -50.0f, 30.0f}}, 0.07f) ==
+              doctest::Approx(expected).epsilon(0.02));
+        CHECK(light_of({glm::mat3(10.0f), {}}, 0.07f) == doctest::Approx(expected).epsilon(0.02));
+        CHECK(light_of({glm::mat3(0.1f), {}}, 0.07f) == doctest::Approx(expected).epsilon(0.02));
+    }
+
+    TEST_CASE("where two probes overlap their light differs by less than 2 % on average") {
+        RoomBuilder builder;
+        const uint32_t white = builder.material(glm::vec3(0.7f));
+        builder.shell(white, kRoom_m, 0.2f);
+        const ProbeBox probes[] = {probe_with_cells(0.06f, 2.0f),
+                                   probe_with_cells(0.06f, 2.0f, turned(0.4f))};
+        const LitRoom room(builder.take(), probes);
+        Lighting lighting = darkness(2);
+        lighting.sources = {omni({0.2f, 0.5f, 0.1f}, 3.0f)};
+        const Solution solution = room.solve(lighting);
+        const std::vector<SurfacePoint> points = points_inside({}, kRoom_m, 30);
+        const auto first = pixel_lights(room, 0, solution, points),
+                   second = pixel_lights(room, 1, solution, points);
+        double difference = 0.0, sum = 0.0;
+        for (size_t i = 0; i < points.size(); ++i) {
+            difference += std::abs(double(first[i].light.x - second[i].light.x));
+            sum += double(first[i].light.x);
+        }
+        CHECK(difference / sum < 0.02);
+    }
+
+    TEST_CASE("the same bytes come out of one thread and of two, and of a second time") {
+        const int threads = thread_count();
+        const auto encoded = [](int count) {
+            set_thread_count(count);
+            const LitRoom room = furnished_room(turned(0.3f), 0.1f);
+            const Solution solution = room.solve(lamp_in(turned(0.3f)));
+            return std::pair(encode_field(room.map, solution), encode_air(room.map, solution));
+        };
+        const auto one = encoded(1);
+        CHECK(one == encoded(2));
+        CHECK(one == encoded(2));
+        set_thread_count(threads);
+    }
+
+    TEST_CASE("light adds up: two lamps together give the sum of what each gives") {
+        const LitRoom room = furnished_room({}, 0.1f);
+        Lighting a = darkness(), b = darkness(), both = darkness();
+        a.sources = {omni({0.1f, 0.5f, 0.1f}, 3.0f)};
+        b.sources = {omni({-0.3f, 0.2f, 0.5f}, 2.0f)};
+        both.sources = {a.sources[0], b.sources[0]};
+        const Solution sa = room.solve(a), sb = room.solve(b), sum = room.solve(both);
+        double error = 0.0, total = 0.0;
+        for (size_t p = 0; p < sum.arriving.size(); ++p) {
+            error += double(glm::length(sum.arriving[p] - sa.arriving[p] - sb.arriving[p]));
+            total += double(glm::length(sum.arriving[p]));
+        }
+        CHECK(error < 2e-3 * total);
+    }
+}
