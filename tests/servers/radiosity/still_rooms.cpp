@@ -98,7 +98,7 @@ Solution LitRoom::solve(const Lighting& lighting) const {
 }
 
 ProbeBox probe_with_cells(float cell_m, float height_m, const Transform& world_from_probe) {
-    const glm::vec3 size(cell_m * float(kProbeCells - 2 * kProbeMargin), height_m, height_m);
+    const glm::vec3 size(cell_m * float(128 - 2 * kProbeMargin), height_m, height_m);
     return {world_from_probe, {-0.5f * size, size}};
 }
 

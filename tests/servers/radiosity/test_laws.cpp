@@ -162,7 +162,8 @@ TEST_SUITE("servers/radiosity/laws") {
             set_thread_count(count);
             const LitRoom room = furnished_room(turned(0.3f), 0.1f);
             const Solution solution = room.solve(lamp_in(turned(0.3f)));
-            return std::pair(encode_field(room.map, solution), encode_air(room.map, solution));
+            return std::pair(encode_field(room.map, solution),
+                             encode_air(*room.transport, room.map, solution));
         };
         const auto one = encoded(1);
         CHECK(one == encoded(2));
