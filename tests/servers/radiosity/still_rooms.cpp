@@ -109,7 +109,7 @@ Lighting darkness(size_t probes) {
     return lighting;
 }
 
-Source omni(const glm::vec3& position, float range_m) {
+Source omni_source(const glm::vec3& position, float range_m) {
     Source s;
     s.position = position;
     s.range_m = range_m;

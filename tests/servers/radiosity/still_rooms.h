@@ -47,7 +47,7 @@ struct LitRoom {
 
 /// Black sky, no source, `probes` probes.
 [[nodiscard]] radiosity::Lighting darkness(size_t probes = 1);
-[[nodiscard]] radiosity::Source omni(const glm::vec3& position, float range_m);
+[[nodiscard]] radiosity::Source omni_source(const glm::vec3& position, float range_m);
 
 /// What a pixel at a point of a surface shows: the CPU twin of surface_light() in shaders/lib/gi_field.glsl.
 /// `found` is false where the field has no patch for it.

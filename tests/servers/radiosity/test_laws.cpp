@@ -38,7 +38,7 @@ LitRoom furnished_room(const Transform& world_from_room, float cell_m) {
 Lighting lamp_in(const Transform& world_from_room) {
     Lighting lighting = darkness();
     lighting.sources = {
-        omni(world_from_room.xform({0.1f, 0.5f, 0.1f}), 3.0f * glm::length(world_from_room.basis[0]))};
+        omni_source(world_from_room.xform({0.1f, 0.5f, 0.1f}), 3.0f * glm::length(world_from_room.basis[0]))};
     return lighting;
 }
 
@@ -143,7 +143,7 @@ TEST_SUITE("servers/radiosity/laws") {
                                    probe_with_cells(0.06f, 2.0f, turned(0.4f))};
         const LitRoom room(builder.take(), probes);
         Lighting lighting = darkness(2);
-        lighting.sources = {omni({0.2f, 0.5f, 0.1f}, 3.0f)};
+        lighting.sources = {omni_source({0.2f, 0.5f, 0.1f}, 3.0f)};
         const Solution solution = room.solve(lighting);
         const std::vector<SurfacePoint> points = points_inside({}, kRoom_m, 30);
         const auto first = pixel_lights(room, 0, solution, points),
@@ -174,8 +174,8 @@ TEST_SUITE("servers/radiosity/laws") {
     TEST_CASE("light adds up: two lamps together give the sum of what each gives") {
         const LitRoom room = furnished_room({}, 0.1f);
         Lighting a = darkness(), b = darkness(), both = darkness();
-        a.sources = {omni({0.1f, 0.5f, 0.1f}, 3.0f)};
-        b.sources = {omni({-0.3f, 0.2f, 0.5f}, 2.0f)};
+        a.sources = {omni_source({0.1f, 0.5f, 0.1f}, 3.0f)};
+        b.sources = {omni_source({-0.3f, 0.2f, 0.5f}, 2.0f)};
         both.sources = {a.sources[0], b.sources[0]};
         const Solution sa = room.solve(a), sb = room.solve(b), sum = room.solve(both);
         double error = 0.0, total = 0.0;

@@ -41,7 +41,7 @@ std::vector<Outside> lights_outside(const Transform& world_from_room) {
         all.back().lighting.sources = {source};
     };
     const glm::vec3 above = world_from_room.xform({0.2f, 1.1f, 0.15f});
-    Source lamp = omni(above, 5.0f);
+    Source lamp = omni_source(above, 5.0f);
     add("omni", lamp);
     lamp.type = SourceType::Spot;
     lamp.to_light = world_from_room.basis[1];
