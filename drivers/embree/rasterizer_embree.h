@@ -20,6 +20,8 @@ public:
     using Progress = std::function<void(float)>;
     explicit RasterizerEmbree(const PathOptions& options, Progress progress = {});
     ~RasterizerEmbree() override;
+    RasterizerEmbree(const RasterizerEmbree&) = delete;
+    RasterizerEmbree& operator=(const RasterizerEmbree&) = delete;
 
     [[nodiscard]] RasterizerInfo info() const override;
     [[nodiscard]] FrameContents frame_contents() const override { return FrameContents::WholeScene; }

@@ -139,6 +139,9 @@ struct RayScene::Impl {
     RTCScene scene = nullptr;
     std::span<const TracedItem> items;
     uint32_t camera_mask = 0xFFFFFFFFu;
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
     ~Impl() {
         if (scene) {
             rtcReleaseScene(scene);

@@ -47,6 +47,8 @@ public:
     /// @return OutOfMemory or Unsupported if Embree says so.
     [[nodiscard]] static Expected<RayScene> build(std::span<const TracedItem> items, uint32_t camera_mask);
     ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 

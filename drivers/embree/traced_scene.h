@@ -30,6 +30,7 @@ class TracedScene {
 public:
     [[nodiscard]] static Expected<std::unique_ptr<TracedScene>> build(const Frame& frame,
                                                                       const SceneResources& resources);
+    ~TracedScene() = default;
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
 

@@ -121,6 +121,7 @@ private:
     void capture_materials() {
         const std::vector<const Material*> todo = keys(captures_);
         std::vector<BakeMaterial> inputs; // asked for on this thread: materials are not made for more
+        inputs.reserve(todo.size());
         for (const Material* material : todo) {
             inputs.push_back(material ? material->bake_material() : BakeMaterial{});
         }
@@ -136,6 +137,7 @@ private:
     template <typename Map>
     static std::vector<typename Map::key_type> keys(const Map& map) {
         std::vector<typename Map::key_type> out;
+        out.reserve(map.size());
         for (const auto& entry : map) {
             out.push_back(entry.first);
         }

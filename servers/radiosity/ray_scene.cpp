@@ -22,6 +22,9 @@ struct RayScene::Impl {
     }
     void trace(RTCIntersectContext& context, std::span<const Ray> rays, std::span<Hit> hits) const noexcept;
 
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
     ~Impl() {
         if (bvh) {
             rtcReleaseScene(bvh);
