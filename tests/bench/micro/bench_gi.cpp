@@ -1,0 +1,98 @@
+// The loops of a bake and of a relight by cells.
+#include "tests/bench/micro/memory.h"
+#include "tests/bench/micro/room.h"
+
+#include "servers/gi/relight.h"
+
+#include <memory>
+#include <vector>
+
+namespace cl::bench {
+
+namespace {
+
+/// A bake of the room and what its relight works on. The newest one is kept.
+struct Cells {
+    gi::CellLayout layout;
+    std::vector<int32_t> leaf_energies;
+    gi::CellEnergies energies;
+};
+
+gi::CachedLight lamp(int subdivision) {
+    gi::CachedLight light;
+    light.cells_from_light.origin = glm::vec3(0.5f, 0.8f, 0.5f) * float(subdivision);
+    light.range_m = float(subdivision);
+    return light;
+}
+
+Cells& cells_of(int subdivision) {
+    static int made_for = 0;
+    static Cells cells;
+    if (made_for != subdivision) {
+        cells.layout = gi::make_layout(Room().octree(subdivision));
+        cells.leaf_energies = gi::emission_energies(cells.layout);
+        gi::inject_light(cells.layout, lamp(subdivision), 1, cells.leaf_energies);
+        gi::energies_from_leaves(cells.layout, cells.leaf_energies, 0.7f, cells.energies);
+        made_for = subdivision;
+    }
+    return cells;
+}
+
+/// Items are leaves.
+void voxelize(benchmark::State& state) {
+    const Room room;
+    const gi::Grid grid = *gi::compute_grid(glm::vec3(Room::kHalf_m), int(state.range(0)));
+    size_t leaves = 0;
+    for (auto _ : state) {
+        static_cast<void>(_);
+        const Expected<gi::Octree> made = gi::voxelize(grid, room.surfaces());
+        leaves += made ? made->leaf_count : 0;
+    }
+    state.SetItemsProcessed(int64_t(leaves));
+}
+BENCHMARK(voxelize)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Items are leaves, a shadow march each.
+void inject_light(benchmark::State& state) {
+    Cells& cells = cells_of(int(state.range(0)));
+    const gi::CachedLight light = lamp(int(state.range(0)));
+    int sign = 1;
+    for (auto _ : state) {
+        static_cast<void>(_);
+        gi::inject_light(cells.layout, light, sign, cells.leaf_energies);
+        sign = -sign; // sums stay in range
+    }
+    state.SetItemsProcessed(int64_t(state.iterations()) * int64_t(cells.layout.leaves.size()));
+}
+BENCHMARK(inject_light)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// A cell's children are read, their energies, and its own energy is written.
+void downsample(benchmark::State& state) {
+    Cells& cells = cells_of(int(state.range(0)));
+    for (auto _ : state) {
+        static_cast<void>(_);
+        gi::energies_from_leaves(cells.layout, cells.leaf_energies, 0.7f, cells.energies);
+    }
+    const size_t count = cells.layout.cells.size(), leaves = cells.layout.leaves.size();
+    report_bytes(state, leaves * (3 * sizeof(int32_t) + sizeof(gi::CellLayout::Leaf)) +
+                            (count - leaves) * (sizeof(gi::Cell) + 4) + count * 2 * 3 * sizeof(gi::Energy));
+}
+BENCHMARK(downsample)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// A cell, its place and energy are read, four bytes are written.
+void encode_mips(benchmark::State& state) {
+    Cells& cells = cells_of(int(state.range(0)));
+    std::vector<gi::MipLevel> levels;
+    gi::encode_mips(cells.layout, cells.energies, 4, levels);
+    for (auto _ : state) {
+        static_cast<void>(_);
+        gi::encode_mips(cells.layout, cells.energies, 4, levels);
+    }
+    report_bytes(state, cells.layout.cells.size() * (sizeof(gi::Cell) + sizeof(glm::u16vec3) +
+                                                     3 * sizeof(gi::Energy) + sizeof(uint32_t) + 4));
+}
+BENCHMARK(encode_mips)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+} // namespace
+
+} // namespace cl::bench

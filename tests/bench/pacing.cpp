@@ -1,0 +1,116 @@
+// Frames of a room whose lamp moves on every one of them: how long the longest takes.
+//
+// usage: pacing [FRAMES]
+// Prints for each GI mode median, percentiles and longest frame, how many took more than 1.5 times the
+// median, and how many relights came in. A frame is a step of the tree and its picture, as a game would run
+// them.
+#include "demo/spinning_lamp_scene.h"
+
+#include "scene/3d/world.h"
+#include "scene/main/scene_tree.h"
+#include "scene/register_types.h"
+
+#include "drivers/gl_context.h"
+#include "drivers/gles3/rasterizer_gles3.h"
+
+#include "servers/rasterizer_checked.h"
+#include "servers/visual_server.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace {
+
+using namespace cl;
+
+constexpr int kWarmUp = 30;
+
+Expected<std::unique_ptr<VisualServer>> make_server(GIMode mode) {
+    Expected<std::unique_ptr<drivers::GLContext>> context = drivers::create_offscreen_context();
+    if (!context) {
+        return context.error();
+    }
+    Expected<std::unique_ptr<gles3::RasterizerGLES3>> rasterizer =
+        gles3::RasterizerGLES3::create(std::move(*context));
+    if (!rasterizer) {
+        return rasterizer.error();
+    }
+    auto server = std::make_unique<VisualServer>(std::make_unique<RasterizerChecked>(std::move(*rasterizer)));
+    RenderSettings settings;
+    settings.gi_mode = mode;
+    server->set_settings(settings);
+    return server;
+}
+
+struct Paces {
+    std::vector<double> frames_ms;
+    int relights = 0; ///< that took another time than the one before: two alike count as one
+};
+
+Expected<Paces> run(GIMode mode, int frames) {
+    Expected<std::unique_ptr<VisualServer>> server = make_server(mode);
+    if (!server) {
+        return server.error();
+    }
+    scene::SceneTree tree(std::move(*server), {.size = {480, 270}});
+    std::unique_ptr<scene::Node> room = demo::make_spinning_lamp_scene(scene::GIProbeSubdiv::Cells128);
+    if (const auto baked = room->get_node_as<scene::GIProbe>("Probe")->bake(); !baked) {
+        return baked.error();
+    }
+    if (Status shown = tree.set_scene(std::move(room)); !shown) {
+        return shown.error();
+    }
+    if (Status drawn = tree.draw_settled(); !drawn) {
+        return drawn.error();
+    }
+    Paces paces;
+    double last_relight_ms = 0.0;
+    for (int i = -kWarmUp; i < frames; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        tree.step(1.0 / 60.0);
+        if (Status drawn = tree.draw(); !drawn) {
+            return drawn.error();
+        }
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+        const double relight_ms = tree.server()->stats().relight_ms;
+        if (i >= 0) {
+            paces.frames_ms.push_back(took.count());
+            paces.relights += relight_ms != last_relight_ms ? 1 : 0;
+        }
+        last_relight_ms = relight_ms;
+    }
+    return paces;
+}
+
+void print(const char* name, Paces paces) {
+    std::vector<double>& f = paces.frames_ms;
+    std::sort(f.begin(), f.end());
+    const auto at = [&f](double part) { return f[size_t(part * double(f.size() - 1))]; };
+    const double limit_ms = 1.5 * at(0.5);
+    const auto over = f.end() - std::upper_bound(f.begin(), f.end(), limit_ms);
+    std::printf("%-6s median %6.1f  95%% %6.1f  99%% %6.1f  longest %6.1f ms (%.2f x)  over 1.5 x: %d of %d  "
+                "relights %d\n",
+                name, at(0.5), at(0.95), at(0.99), f.back(), f.back() / at(0.5), int(over), int(f.size()),
+                paces.relights);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    scene::register_scene_types(ClassRegistry::instance());
+    const int frames = std::max(argc > 1 ? std::atoi(argv[1]) : 300, 1);
+    const std::pair<const char*, GIMode> modes[] = {
+        {"off", GIMode::Off}, {"cones", GIMode::Cones}, {"auto", GIMode::Auto}};
+    for (const auto& [name, mode] : modes) {
+        const Expected<Paces> paces = run(mode, frames);
+        if (!paces) {
+            std::fprintf(stderr, "%s\n", paces.error().to_string().c_str());
+            return 1;
+        }
+        print(name, *paces);
+    }
+    return 0;
+}
