@@ -25,17 +25,21 @@ Rasterizer& VisualServer::rasterizer() {
     return *impl_->rasterizer;
 }
 
+bool VisualServer::Impl::lights_by_gi() const {
+    return settings.gi_mode != GIMode::Off && rasterizer->frame_contents() != FrameContents::WholeScene;
+}
+
 /// Each way of finding indirect light keeps its own state, and only the one in use costs anything: none under
 /// a rasteriser that follows light itself.
 Status VisualServer::Impl::step_gi(FieldDriver::Rest rest) {
-    if (rasterizer->frame_contents() == FrameContents::WholeScene) {
+    if (!lights_by_gi()) {
         return {};
     }
     return settings.gi_mode == GIMode::Auto ? fields.step(rest) : probes.step();
 }
 
 bool VisualServer::Impl::gi_is_settled() {
-    if (rasterizer->frame_contents() == FrameContents::WholeScene) {
+    if (!lights_by_gi()) {
         return true;
     }
     return settings.gi_mode == GIMode::Auto ? fields.is_settled() : probes.is_settled();

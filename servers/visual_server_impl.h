@@ -45,6 +45,8 @@ struct VisualServer::Impl {
     Status check_or_null(std::string_view call, std::string_view expected, RID rid, const Owner& owner) {
         return !rid || owner.owns(rid) ? Status{} : stale.refuse(call, expected, rid);
     }
+    /// False if GI is off or the rasteriser follows light itself.
+    [[nodiscard]] bool lights_by_gi() const;
     Status step_gi(FieldDriver::Rest rest);
     [[nodiscard]] bool gi_is_settled();
     Status ensure_target(Viewport& viewport);
