@@ -1,5 +1,6 @@
 #include "servers/radiosity/field_map.h"
 
+#include "servers/radiosity/shared_exponent.h"
 #include "servers/radiosity/slot_places.h"
 
 #include "core/threads.h"
@@ -195,8 +196,7 @@ std::vector<uint32_t> encode_field(const FieldMap& map, const Solution& solution
     parallel_for(out.size(), 4096, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             if (map.patches[i] != kNoPatch) {
-                out[i] =
-                    glm::packF3x9_E1x5(glm::clamp(solution.arriving[map.patches[i]], 0.0f, kMaxRadiance));
+                out[i] = pack_shared_exponent(solution.arriving[map.patches[i]]);
             }
         }
     });
