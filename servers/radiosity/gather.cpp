@@ -46,7 +46,7 @@ std::vector<glm::vec3> gather_records(const Transport& t, const Lighting& lighti
         if (sky_reaches(t, lighting, t.records.patch[r])) {
             sum += sum_over(t.records.links.skies_of(point), lighting.sky, detail);
         }
-        arriving[r] = point.ray_count > 0 ? sum / float(point.ray_count) : sum;
+        arriving[r] = t.records.emitted[r] + (point.ray_count > 0 ? sum / float(point.ray_count) : sum);
     });
     return arriving;
 }
@@ -65,8 +65,9 @@ void step_bounce(const Transport& t, std::span<const glm::vec3> first, std::span
 
 std::vector<glm::vec3> at_patches(const Transport& t, std::span<const glm::vec3> at_records) {
     std::vector<glm::vec3> out(t.patches.size());
+    const std::vector<glm::vec3>& detail = t.records.emitted_detail;
     for_all(out.size(), [&](size_t p) {
-        glm::vec3 sum(0.0f);
+        glm::vec3 sum = detail.empty() ? glm::vec3(0.0f) : detail[p];
         for (const Records::Share& s : t.records.of_patch(uint32_t(p))) {
             sum += s.weight * at_records[s.record];
         }

@@ -17,8 +17,8 @@ namespace cl::radiosity {
 /// How many of a point's links are read: all for what is seen, some for what only feeds later bounces.
 enum class Detail : uint8_t { All, Some };
 
-/// Mean radiance that the rays of each record meet.
-/// @param leaving  radiance of each patch
+/// Mean radiance that the rays of each record meet, and what emitters send it.
+/// @param leaving  radiance that each patch sends on, without its emission
 [[nodiscard]] std::vector<glm::vec3> gather_records(const Transport& transport, const Lighting& lighting,
                                                     std::span<const glm::vec3> leaving, Detail detail);
 

@@ -2,6 +2,8 @@
 
 #include "servers/radiosity/sky_bins.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 
 namespace cl::radiosity {
@@ -33,6 +35,10 @@ void add_rays(const StillScene& scene, const RayScene& rays, const Patches& patc
             if (patch != kNoPatch) {
                 fan.patches.push_back(patch);
                 fan.patch_rays.push_back(number);
+                if (patches.emission[patch] != glm::vec3(0.0f)) {
+                    fan.emitters.push_back(
+                        {patch, hit.t, -glm::dot(facing, batch[i].direction), batch[i].direction});
+                }
             }
         }
     }

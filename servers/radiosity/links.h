@@ -33,6 +33,13 @@ struct Links {
 struct RayFan {
     std::vector<uint32_t> patches, skies;
     std::vector<uint8_t> patch_rays, sky_rays; ///< number of each one's ray, modulo 256
+    /// Rays that end on patches that shine by themselves.
+    struct EmitterHit {
+        uint32_t patch;
+        float distance_m, cosine; ///< at the patch, to its normal
+        glm::vec3 direction;
+    };
+    std::vector<EmitterHit> emitters;
     uint32_t ray_count = 0, back_count = 0;
     float inverse_distance_sum = 0.0f; ///< [1/m]; rays that leave add 0
     /// Harmonic mean of the distances to what the rays met [m]: the scale on which irradiance changes.

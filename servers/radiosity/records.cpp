@@ -1,5 +1,6 @@
 #include "servers/radiosity/records.h"
 
+#include "servers/radiosity/emitters.h"
 #include "servers/radiosity/sampling.h"
 
 #include "core/threads.h"
@@ -81,14 +82,26 @@ public:
         }
     }
     /// Traces the rays a record still lacks. @param share  of the full number
-    void finish(Draft& draft, float share) const {
+    /// @return what emitters send it
+    glm::vec3 finish(Draft& draft, float share, const Emitters& emitters) const {
         const uint32_t rays = std::max(uint32_t(share * float(kRays[draft.level])), kLeastRays);
         trace(draft, draft.fan.ray_count, rays);
+        if (emitters.empty()) {
+            return glm::vec3(0.0f);
+        }
+        const glm::vec3 normal = patches_.normal[draft.patch];
+        const glm::vec3 origin = patches_.position[draft.patch] + kLift * cell_m(draft.patch) * normal;
+        return emitters.light_at(patches_, rays_, origin, normal, draft.fan, start_of(draft.patch).x);
     }
 
 private:
     [[nodiscard]] float cell_m(uint32_t patch) const noexcept {
         return patches_.grids[patches_.grid[patch]].cells.cell_m;
+    }
+
+    /// Differs between neighbours.
+    [[nodiscard]] glm::vec2 start_of(uint32_t patch) const noexcept {
+        return hashed_start(patches_.order[patch] * 8 + uint64_t(patches_.grid[patch]));
     }
 
     void place_parts(std::span<const Placed> group, int level, std::vector<Draft>& out) const {
@@ -132,8 +145,7 @@ private:
         const glm::vec3 normal = patches_.normal[draft.patch];
         const glm::vec3 origin = patches_.position[draft.patch] + kLift * cell_m(draft.patch) * normal;
         const CosineFrame frame(normal);
-        const glm::vec2 start =
-            hashed_start(patches_.order[draft.patch] * 8 + uint64_t(patches_.grid[draft.patch]));
+        const glm::vec2 start = start_of(draft.patch);
         std::vector<Ray> asked;
         for (uint32_t i = from; i < to; ++i) {
             asked.push_back({origin, frame.direction(r2_point(i, start))});
@@ -301,19 +313,36 @@ float ray_share(std::span<const Draft> drafts) noexcept {
 }
 
 /// Traces what rays are still to be traced and lists where they end.
-Links finish_links(const Placer& placer, std::vector<Draft>& drafts) {
+void finish_links(const Placer& placer, const Patches& patches, std::vector<Draft>& drafts,
+                  Records& records) {
     const float share = ray_share(drafts);
+    const Emitters emitters(patches);
+    records.emitted.resize(drafts.size());
     parallel_for(drafts.size(), 16, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            placer.finish(drafts[i], share);
+            records.emitted[i] = placer.finish(drafts[i], share, emitters);
         }
     });
-    Links links;
     for (Draft& d : drafts) {
-        append_point(links, d.fan);
+        append_point(records.links, d.fan);
         d.fan = {}; // its memory is in the lists now
     }
-    return links;
+}
+
+/// Light from emitters is free of noise, and steep beside them: a patch that is a record keeps its own.
+void add_emitted_detail(const Patches& patches, Records& records) {
+    const auto is_dark = [](const glm::vec3& e) { return e == glm::vec3(0.0f); };
+    if (std::all_of(records.emitted.begin(), records.emitted.end(), is_dark)) {
+        return;
+    }
+    records.emitted_detail.resize(patches.size(), glm::vec3(0.0f));
+    for (size_t r = 0; r < records.patch.size(); ++r) {
+        glm::vec3 detail = records.emitted[r];
+        for (const Records::Share& s : records.of_patch(records.patch[r])) {
+            detail -= s.weight * records.emitted[s.record];
+        }
+        records.emitted_detail[records.patch[r]] = detail;
+    }
 }
 
 } // namespace
@@ -339,12 +368,13 @@ Records make_records(const StillScene& scene, const RayScene& rays, const Patche
             add(drafts.back());
         }
     }
-    records.links = finish_links(placer, drafts);
+    finish_links(placer, patches, drafts, records);
     for (const std::vector<Records::Share>& shares : of_patch) {
         records.first.push_back(uint32_t(records.shares.size()));
         records.shares.insert(records.shares.end(), shares.begin(), shares.end());
     }
     records.first.push_back(uint32_t(records.shares.size()));
+    add_emitted_detail(patches, records);
     return records;
 }
 

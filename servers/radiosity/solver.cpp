@@ -90,12 +90,12 @@ std::vector<glm::vec3> light_of(const Transport& t, const Source& source) {
     return out;
 }
 
-std::vector<glm::vec3> leaving_from(const Transport& t, std::span<const glm::vec3> direct,
-                                    std::span<const glm::vec3> arriving) {
+/// Light that each patch sends on.
+std::vector<glm::vec3> sent_on(const Transport& t, std::span<const glm::vec3> direct,
+                               std::span<const glm::vec3> arriving) {
     std::vector<glm::vec3> out(t.patches.size());
     for_all(out.size(), [&](size_t p) {
-        const glm::vec3 light = direct[p] + (arriving.empty() ? glm::vec3(0.0f) : arriving[p]);
-        out[p] = t.patches.emission[p] + t.patches.albedo[p] * light;
+        out[p] = t.patches.albedo[p] * (direct[p] + (arriving.empty() ? glm::vec3(0.0f) : arriving[p]));
     });
     return out;
 }
@@ -182,15 +182,15 @@ Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<b
     Solution s;
     DirectCache fresh;
     const std::vector<glm::vec3> direct = (cache ? *cache : fresh).gather(t, lighting.sources);
-    const std::vector<glm::vec3> first =
-        gather_records(t, lighting, leaving_from(t, direct, {}), Detail::Some);
+    const std::vector<glm::vec3> first = gather_records(t, lighting, sent_on(t, direct, {}), Detail::Some);
     std::vector<glm::vec3> arriving = first;
     s.bounces = bounce(t, first, arriving, stop);
     // The last bounce again, from patches instead of records: what is seen has the detail.
     const std::vector<glm::vec3> before_last = at_patches(t, arriving);
-    arriving = gather_records(t, lighting, leaving_from(t, direct, before_last), Detail::All);
+    arriving = gather_records(t, lighting, sent_on(t, direct, before_last), Detail::All);
     s.arriving = at_patches(t, arriving);
-    s.leaving = leaving_from(t, direct, s.arriving);
+    s.leaving = sent_on(t, direct, s.arriving);
+    for_all(s.leaving.size(), [&](size_t p) { s.leaving[p] += t.patches.emission[p]; });
     for (size_t i = 0; i < t.air.size() && !stop; ++i) {
         s.air.push_back(gather_air(t.air[i], lighting,
                                    !(i < lighting.interior.size() && lighting.interior[i]), s.leaving));
