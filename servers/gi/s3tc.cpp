@@ -97,6 +97,7 @@ void encode_alpha(std::span<const BlockTexel> texels, uint8_t* out) {
     const int least = texels.size() == kTexels ? *std::min_element(alphas.begin(), alphas.end()) : 0;
     uint64_t codes = 0;
     for (size_t i = 0; i < kTexels && most != least; ++i) {
+        // Not negative: halves go up, as Godot's do. NOLINTNEXTLINE(bugprone-incorrect-roundings)
         const int seventh = int(float(alphas[i] - least) * 7.0f / float(most - least) + 0.5f);
         const uint64_t q = uint64_t(7 - std::min(seventh, 7));
         codes |= (q == 0 ? 0 : q == 7 ? 1 : q + 1) << (3 * i);

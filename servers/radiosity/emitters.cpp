@@ -14,6 +14,11 @@ float brightest(const glm::vec3& v) noexcept {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
+bool is_far(const Patches& patches, uint32_t patch, float distance_m) noexcept {
+    constexpr float kFar_cells = 4.0f;
+    return distance_m > kFar_cells * patches.grids[patches.grid[patch]].cells.cell_m;
+}
+
 } // namespace
 
 Emitters::Emitters(const Patches& patches) : density_(patches.size(), 0.0f) {
@@ -37,10 +42,13 @@ Emitters::Emitters(const Patches& patches) : density_(patches.size(), 0.0f) {
 
 glm::vec3 Emitters::light_at(const Patches& patches, const RayScene& rays, const glm::vec3& origin,
                              const glm::vec3& normal, const RayFan& fan, float start) const noexcept {
-    // Both ways of finding a direction, as rays and points per steradian there.
+    // Both ways of finding a direction, as rays and points per steradian there. A patch is no point from
+    // nearby: there rays do all the work.
     const auto found_per_sr = [&](uint32_t patch, float cos_here, float cos_there, float distance_m) {
-        return float(fan.ray_count) * cos_here * kInversePi +
-               density(patch) * distance_m * distance_m / cos_there;
+        const float by_rays = float(fan.ray_count) * cos_here * kInversePi;
+        return is_far(patches, patch, distance_m)
+                   ? by_rays + density_[patch] * distance_m * distance_m / cos_there
+                   : by_rays;
     };
     glm::vec3 sum(0.0f);
     for (const RayFan::EmitterHit& hit : fan.emitters) {
@@ -61,7 +69,8 @@ glm::vec3 Emitters::light_at(const Patches& patches, const RayScene& rays, const
         const glm::vec3 direction = (target - origin) / std::max(distance_m, 1e-6f);
         const float cos_here = glm::dot(direction, normal),
                     cos_there = -glm::dot(direction, patches.normal[patch]);
-        if (cos_here > 0.0f && cos_there > 0.0f && !rays.is_blocked(origin, target)) {
+        if (cos_here > 0.0f && cos_there > 0.0f && is_far(patches, patch, distance_m) &&
+            !rays.is_blocked(origin, target)) {
             sum += patches.emission[patch] *
                    (cos_here * kInversePi / found_per_sr(patch, cos_here, cos_there, distance_m));
         }

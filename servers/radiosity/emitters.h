@@ -30,12 +30,9 @@ public:
 
 private:
     static constexpr size_t kPoints = 64; ///< chosen per gather point
-    /// Points chosen per square metre of a patch.
-    [[nodiscard]] float density(uint32_t patch) const noexcept { return density_[patch]; }
-
-    std::vector<uint32_t> patch_;   ///< emitters, each surface once
-    std::vector<float> cumulative_; ///< of the shares of light of `patch_`, ending at 1
-    std::vector<float> density_;    ///< of all patches [1/m^2]; 0 where none is chosen
+    std::vector<uint32_t> patch_;         ///< emitters, each surface once
+    std::vector<float> cumulative_;       ///< of the shares of light of `patch_`, ending at 1
+    std::vector<float> density_;          ///< of all patches [1/m^2]; 0 where none is chosen
 };
 
 } // namespace cl::radiosity

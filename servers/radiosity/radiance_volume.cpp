@@ -62,6 +62,11 @@ Texels coarser(const Texels& fine) {
     return out;
 }
 
+/// @param v  0 to 1
+uint8_t to_byte(float v) noexcept {
+    return uint8_t(v * 255.0f + 0.5f); // NOLINT(bugprone-incorrect-roundings): not negative, and no call
+}
+
 std::vector<uint8_t> encoded(const Texels& texels, float range) {
     std::vector<uint8_t> out(texels.values.size() * 4);
     parallel_for(texels.values.size(), 1 << 15, [&](size_t begin, size_t end) {
@@ -71,10 +76,9 @@ std::vector<uint8_t> encoded(const Texels& texels, float range) {
                 continue;
             }
             for (int c = 0; c < 3; ++c) {
-                out[i * 4 + size_t(c)] =
-                    uint8_t(std::sqrt(std::clamp(v[c] / range, 0.0f, 1.0f)) * 255.0f + 0.5f);
+                out[i * 4 + size_t(c)] = to_byte(std::sqrt(std::clamp(v[c] / range, 0.0f, 1.0f)));
             }
-            out[i * 4 + 3] = uint8_t(v.a * 255.0f + 0.5f);
+            out[i * 4 + 3] = to_byte(v.a);
         }
     });
     return out;

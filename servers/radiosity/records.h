@@ -13,8 +13,8 @@ namespace cl::radiosity {
 /// beforehand. Source: Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992.
 struct Records {
     std::vector<uint32_t> patch;
-    std::vector<float> spacing_m;   ///< to its neighbours, about
-    Links links;                    ///< a point a record
+    std::vector<float> spacing_m; ///< to its neighbours, about
+    Links links;                  ///< a point a record
     /// Mean radiance that each gets from surfaces that shine by themselves.
     std::vector<glm::vec3> emitted;
     /// What interpolation blurs of that: added to what patches interpolate. Empty where nothing shines.

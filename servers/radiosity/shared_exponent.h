@@ -27,8 +27,9 @@ namespace cl::radiosity {
         std::memcpy(&scale, &word, sizeof scale);
         return scale;
     };
-    const auto rounded = [](float v) { return uint32_t(v + 0.5f); };
-    exponent += rounded(largest * scale_of(exponent)) >> kMantissa; // 511.5 and more need one bit less
+    // Small and not negative: exact, and without the call that lround is.
+    const auto rounded = [](float v) { return uint32_t(v + 0.5f); }; // NOLINT(bugprone-incorrect-roundings)
+    exponent += rounded(largest * scale_of(exponent)) >> kMantissa;  // 511.5 and more need one bit less
     const float scale = scale_of(exponent);
     return rounded(r * scale) | rounded(g * scale) << kMantissa | rounded(b * scale) << (2 * kMantissa) |
            uint32_t(exponent) << (3 * kMantissa);

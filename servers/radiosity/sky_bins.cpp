@@ -15,8 +15,9 @@ uint32_t sky_bin(const glm::vec3& d) noexcept {
 }
 
 glm::vec3 sky_direction(uint32_t bin, float u, float v) noexcept {
-    const float y = (float(bin / kSkyColumns) + v) / float(kSkyRows) * 2.0f - 1.0f;
-    const float phi = (float(bin % kSkyColumns) + u) / float(kSkyColumns) * 2.0f * std::numbers::pi_v<float>;
+    const uint32_t row = bin / kSkyColumns, column = bin % kSkyColumns;
+    const float y = (float(row) + v) / float(kSkyRows) * 2.0f - 1.0f;
+    const float phi = (float(column) + u) / float(kSkyColumns) * 2.0f * std::numbers::pi_v<float>;
     const float r = std::sqrt(std::max(1.0f - y * y, 0.0f));
     return {r * std::cos(phi), y, r * std::sin(phi)};
 }

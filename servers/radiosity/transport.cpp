@@ -124,7 +124,7 @@ size_t Transport::bytes() const noexcept {
            records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange) + air_bytes;
 }
 
-Expected<std::shared_ptr<const Transport>> make_transport(std::shared_ptr<const StillScene> scene,
+Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<const StillScene>& scene,
                                                           std::span<const ProbeBox> probes,
                                                           const std::atomic<bool>& stop) {
     Expected<RayScene> rays = RayScene::create(*scene);

@@ -50,7 +50,7 @@ inline constexpr int kProbeMargin = 4;
 
 /// @param stop  give up as soon as it turns true. @return Cancelled, or what Embree says.
 [[nodiscard]] Expected<std::shared_ptr<const Transport>>
-make_transport(std::shared_ptr<const StillScene> scene, std::span<const ProbeBox> probes,
+make_transport(const std::shared_ptr<const StillScene>& scene, std::span<const ProbeBox> probes,
                const std::atomic<bool>& stop);
 
 } // namespace cl::radiosity
