@@ -11,6 +11,7 @@ import argparse
 import json
 import os
 import platform
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -134,15 +135,14 @@ def arguments():
     return o
 
 
-def measure_all(bench, options):
-    rows = {}
+def measure_all(bench, options, rows):
+    """Adds to `rows` as it goes: what was measured before an interruption counts."""
     for scene in [s.resolve() for s in options.scene or default_scenes()]:
         for run in range(options.runs):
             for name in options.measure.split(","):
                 print(f"{scene.stem}: {name}, run {run + 1} of {options.runs}", file=sys.stderr, flush=True)
                 for row, (ours, godot) in getattr(bench, name)(scene, run).items():
                     rows.setdefault((scene.stem, row), Row(scene.stem, row)).add(ours, godot)
-    return list(rows.values())
 
 
 def main():
@@ -152,13 +152,18 @@ def main():
         bench = Bench(Conelight(o.conelight.resolve(), work, size, o.timeout), Godot(display, work, size, o.timeout),
                       Path(work))
         load = os.getloadavg()[0]
-        rows = measure_all(bench, o)
+        rows = {}
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+        try:
+            measure_all(bench, o, rows)
+        except KeyboardInterrupt:
+            print("interrupted: fewer runs than asked for", file=sys.stderr)
     about = {"machine": platform.platform(), "cores": os.cpu_count(), "load_before": load,
              "load_after": os.getloadavg()[0], "size": size, "runs": o.runs}
     print(f"{about['cores']} cores, load {load:.1f} before and {about['load_after']:.1f} after, {o.size}, {o.runs} runs")
-    print_table(rows)
+    print_table(rows.values())
     if o.json:
-        o.json.write_text(json.dumps({**about, "rows": [r.as_json() for r in rows]}, indent=1) + "\n")
+        o.json.write_text(json.dumps({**about, "rows": [r.as_json() for r in rows.values()]}, indent=1) + "\n")
 
 
 if __name__ == "__main__":
