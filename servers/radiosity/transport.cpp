@@ -42,13 +42,24 @@ bool covers(const AABB& outer, const AABB& inner) noexcept {
            glm::all(glm::greaterThanEqual(outer.position + outer.size, inner.position + inner.size));
 }
 
+/// Cells along a grid's longest axis. Surface, and with it patches, grows with their square: many probes
+/// share what kFullGrids of them would have, or 64 probes would take minutes. The slabs of air of 64 then
+/// just fit the 2048 texels that a texture may have along z.
+int cells_of_grid(int wanted, size_t probe_count) noexcept {
+    constexpr float kFullGrids = 4.0f;
+    constexpr int kLeastCells = 16;
+    const float share = std::sqrt(std::min(1.0f, kFullGrids / float(probe_count)));
+    return std::max(int(float(wanted) * share), std::min(wanted, kLeastCells));
+}
+
 /// The probes' grids, finest first, then coarser and coarser ones around all of them until the scene is
 /// covered: what stands outside still shades and bounces.
 std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeBox> probes) {
     std::vector<CellGrid> grids;
     AABB all = transformed(probes[0].world_from_probe, probes[0].box);
     for (const ProbeBox& p : probes) {
-        grids.push_back(grid_of_box(p.world_from_probe, with_margin(p.box, p.cells), p.cells));
+        const int cells = cells_of_grid(p.cells, probes.size());
+        grids.push_back(grid_of_box(p.world_from_probe, with_margin(p.box, cells), cells));
         all = all.merged(transformed(p.world_from_probe, p.box));
     }
     const AABB bounds = bounds_of(scene);
