@@ -72,7 +72,7 @@ struct FieldDriver::Job {
         for (const ProbeKey& p : geometry.probes) {
             boxes.push_back({p.world_from_probe, p.box, geometry.quality == Quality::High ? 128 : 64});
         }
-        auto made = radiosity::make_transport(std::move(scene), boxes, stop);
+        auto made = radiosity::make_transport(scene, boxes, stop);
         if (!made) {
             error = made.error().message;
             return false;
