@@ -83,7 +83,7 @@ TEST_SUITE("servers/radiosity/laws") {
             }
             CHECK(lost < 6 * 40 * 40 / 200); // slivers of cells in the edges
             CHECK(least > 0.92f * expected); // some rays into an edge find no patch
-            CHECK(most < 1.02f * expected); // points chosen on emitters err a little where all shines
+            CHECK(most < 1.02f * expected);  // points chosen on emitters err a little where all shines
         }
     }
 
