@@ -16,10 +16,7 @@ class Cloth : public Resource {
 public:
     static constexpr std::string_view kClassName = "TestCastCloth";
 };
-class Wood : public Resource {
-public:
-    static constexpr std::string_view kClassName = "TestCastWood";
-};
+class Wood : public Resource {};
 
 /// What every cast promises: the Variant has the declared type and gives the value back.
 template <typename T>

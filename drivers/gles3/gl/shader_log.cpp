@@ -34,7 +34,6 @@ struct Complaint {
 /// One line of a log; nullopt if it has no place, or is a warning.
 std::optional<Complaint> parse_line(std::string_view line) {
     take(line, "ERROR: ");
-    Complaint c;
     const std::optional<int> file = take_number(line);
     if (!file || !take(line, ":")) {
         return std::nullopt;

@@ -160,13 +160,14 @@ TEST_SUITE("servers/gi/light_injection") {
         // The last leaf finds the plane at 63 - row. The ray starts there if that is before the leaf's 50.03,
         // and beyond the wall if it is past 40.
         for (const int before : {0, 1020}) {
-            for (const auto& [row, is_lit] : {std::pair{0, false},
-                                              {12, false},
-                                              {13, true},
-                                              {18, true},
-                                              {22, true},
-                                              {23, false},
-                                              {30, false}}) {
+            for (const auto& [at_row, is_lit] : {std::pair{0, false},
+                                                 {12, false},
+                                                 {13, true},
+                                                 {18, true},
+                                                 {22, true},
+                                                 {23, false},
+                                                 {30, false}}) {
+                const int row = at_row; // CAPTURE needs a variable
                 const gi::CellLayout layout = with_row(before, row);
                 const Sums sums = lit(layout, omni({4.0f, 32.97f, 0.97f}, 500.0f));
                 CAPTURE(before);
