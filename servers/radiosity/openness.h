@@ -1,0 +1,26 @@
+#pragma once
+
+#include "servers/radiosity/ray_scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace cl::radiosity {
+
+/// A point of a surface, lifted off it so that rays do not meet the surface itself.
+[[nodiscard]] glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) noexcept;
+
+/// How open the space before a point is: harmonic mean of the distances to what is there [m]. Less than 0 if
+/// most rays meet the backs of surfaces: it lies inside a solid.
+[[nodiscard]] float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal,
+                             float cell_m) noexcept;
+
+/// The space that each of some points of one plane borders on: the number of the first point that it can be
+/// reached from, by steps from one to another in sight of it.
+[[nodiscard]] std::vector<size_t> spaces(const RayScene& rays, std::span<const glm::vec3> points,
+                                         const glm::vec3& normal, float cell_m);
+
+} // namespace cl::radiosity
