@@ -1,3 +1,4 @@
+#include "tests/scene/property_laws.h"
 #include "tests/scene/scene_fixture.h"
 
 #include "core/variant/variant_parser.h"
@@ -5,6 +6,9 @@
 #include <doctest/doctest.h>
 
 using namespace cl;
+using cl::tests::check_choice;
+using cl::tests::Choice;
+using cl::tests::own_stored_properties;
 using cl::tests::register_types;
 
 namespace {
@@ -128,16 +132,6 @@ std::vector<TextAssignment> rows_of(const Table& table) {
     }
 }
 
-std::vector<const PropertyInfo*> own_stored_properties(const ClassInfo& info) {
-    std::vector<const PropertyInfo*> own;
-    for (const PropertyInfo& p : info.properties) {
-        if (p.stored) {
-            own.push_back(&p);
-        }
-    }
-    return own;
-}
-
 } // namespace
 
 TEST_SUITE("scene/resources") {
@@ -190,7 +184,7 @@ TEST_SUITE("scene/resources") {
 
     TEST_CASE("numbers beyond an enumeration are refused and the old one is kept") {
         register_types();
-        const std::pair<const char*, const char*> kChoices[] = {
+        const Choice kChoices[] = {
             {"SpatialMaterial", "params_diffuse_mode"},
             {"SpatialMaterial", "params_cull_mode"},
             {"SpatialMaterial", "emission_operator"},
@@ -199,17 +193,8 @@ TEST_SUITE("scene/resources") {
             {"ProceduralSky", "texture_size"},
             {"ProceduralSky", "radiance_size"},
         };
-        for (const auto& [class_name, property] : kChoices) {
-            CAPTURE(class_name);
-            CAPTURE(property);
-            const std::unique_ptr<Object> object = ClassRegistry::instance().create(class_name);
-            REQUIRE(object != nullptr);
-            const Variant before = object->get(property);
-            for (int64_t wrong : {int64_t{7}, int64_t{255}, int64_t{256}}) {
-                CHECK(object->set(property, wrong) == SetResult::Refused);
-                CHECK(object->get(property) == before);
-            }
-            CHECK(object->set(property, 1) == SetResult::Done);
+        for (const Choice& choice : kChoices) {
+            check_choice(choice, {7, 255, 256}, 1);
         }
     }
 }
