@@ -2,6 +2,8 @@
 
 #include "drivers/embree/sampler.h"
 
+#include "core/math/traceable.h"
+
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
@@ -118,7 +120,12 @@ bool attach(RTCDevice device, RTCScene scene, const TracedItem& item, uint32_t n
     return true;
 }
 
-RTCRay to_embree(const Ray& ray) noexcept {
+/// A ray that Embree does not take becomes one that ends before it begins: it meets nothing.
+RTCRay to_embree(const Ray& asked) noexcept {
+    constexpr Ray kNothing{{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.0f, -1.0f};
+    const bool is_sound = is_traceable(asked.origin) && is_traceable(asked.direction) &&
+                          asked.near_m >= 0.0f && asked.far_m >= 0.0f;
+    const Ray& ray = is_sound ? asked : kNothing;
     RTCRay r{};
     r.org_x = ray.origin.x;
     r.org_y = ray.origin.y;
@@ -202,7 +209,7 @@ bool RayScene::is_blocked(const Ray& ray, RayKind kind, uint32_t seed) const noe
     Query query = make_query(kind, seed, impl_->camera_mask);
     RTCRay embree_ray = to_embree(ray);
     rtcOccluded1(impl_->scene, &query.context, &embree_ray);
-    return embree_ray.tfar < 0.0f; // Embree's sign for a hit
+    return embree_ray.tfar == -INFINITY; // Embree's sign for a hit
 }
 
 glm::vec3 offset_point(const glm::vec3& point, const glm::vec3& normal) noexcept {

@@ -1,10 +1,13 @@
 #include "servers/radiosity/ray_scene.h"
 
+#include "core/math/traceable.h"
+
 #include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -77,7 +80,11 @@ void pass_other_side(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-void fill(RTCRay& out, const Ray& ray) noexcept {
+/// A ray that no library takes becomes one that ends before it begins: it meets nothing.
+void fill(RTCRay& out, const Ray& asked) noexcept {
+    constexpr Ray kNothing{{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, -1.0f};
+    const bool is_sound = is_traceable(asked.origin) && is_traceable(asked.direction) && asked.max_t >= 0.0f;
+    const Ray& ray = is_sound ? asked : kNothing;
     out.org_x = ray.origin.x;
     out.org_y = ray.origin.y;
     out.org_z = ray.origin.z;
@@ -197,7 +204,7 @@ bool RayScene::is_blocked(const Ray& ray) const noexcept {
     RTCRay r;
     fill(r, ray);
     rtcOccluded1(impl_->bvh, &context, &r);
-    return r.tfar < 0.0f;
+    return r.tfar == -INFINITY; // Embree's sign for a hit
 }
 
 } // namespace cl::radiosity

@@ -18,8 +18,20 @@ std::array<RID, 3> material_choices(const Instance& instance, const Mesh& mesh, 
     return {instance.material_override, own, mesh.surfaces[surface].material};
 }
 
-bool is_finite(const glm::vec3& v) noexcept {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// Farther away nothing is lit that anyone sees, and areas and distances would not be finite.
+bool is_in_reach(const glm::vec3& v) noexcept {
+    constexpr float kReach_m = 1e9f;
+    return std::abs(v.x) < kReach_m && std::abs(v.y) < kReach_m && std::abs(v.z) < kReach_m;
+}
+
+/// Colours of a file may be anything.
+glm::vec3 sane(const glm::vec3& radiance) noexcept {
+    constexpr float kMost = 1e6f;
+    glm::vec3 out;
+    for (int i = 0; i < 3; ++i) {
+        out[i] = radiance[i] > 0.0f ? std::min(radiance[i], kMost) : 0.0f; // 0 for NaN
+    }
+    return out;
 }
 
 /// Corners of triangles, three each, whatever way the surface lists them.
@@ -77,14 +89,14 @@ private:
         const std::vector<uint32_t> corners = triangle_corners(arrays, primitive);
         for (size_t i = 0; i + 2 < corners.size(); i += 3) {
             const uint32_t a = first + corners[i], b = first + corners[i + 1], c = first + corners[i + 2];
-            if (is_finite(scene_.positions[a]) && is_finite(scene_.positions[b]) &&
-                is_finite(scene_.positions[c])) {
+            if (is_in_reach(scene_.positions[a]) && is_in_reach(scene_.positions[b]) &&
+                is_in_reach(scene_.positions[c])) {
                 scene_.triangles.push_back(keep_order ? glm::uvec3(a, b, c) : glm::uvec3(a, c, b));
                 scene_.surface_of.push_back(surface);
             }
         }
         for (uint32_t i = first; i < scene_.positions.size(); ++i) {
-            if (!is_finite(scene_.positions[i])) {
+            if (!is_in_reach(scene_.positions[i])) {
                 scene_.positions[i] = glm::vec3(0.0f); // no triangle uses it, but libraries would read it
             }
         }
@@ -93,15 +105,15 @@ private:
     uint32_t add_material(const StillItem::Surface& in) {
         const MaterialDesc& m = in.material;
         radiosity::Surface out;
-        out.albedo = linear_from_srgb(m.albedo.rgb());
+        out.albedo = sane(linear_from_srgb(m.albedo.rgb()));
         out.albedo_map = map(in.albedo_map);
         out.uv_scale = glm::vec2(m.uv1_scale);
         out.uv_offset = glm::vec2(m.uv1_offset);
         out.two_sided = m.cull_mode == CullMode::Disabled;
         out.alpha_cutoff = m.alpha_scissor ? m.alpha_scissor_threshold : 0.0f;
         if (m.emission_enabled) {
-            out.emission = linear_from_srgb(m.emission.rgb()) * m.emission_energy;
-            out.emission_energy = m.emission_energy;
+            out.emission = sane(linear_from_srgb(m.emission.rgb()) * m.emission_energy);
+            out.emission_energy = sane(glm::vec3(m.emission_energy)).x;
             out.emission_multiplies = m.emission_operator == EmissionOperator::Multiply;
             out.emission_map = m.emission_texture ? map(in.emission_map) : nullptr;
             // A missing texture is black: multiplied by it, nothing is left.
