@@ -21,59 +21,111 @@ bool sky_reaches(const Transport& t, const Lighting& lighting, uint32_t patch) n
     return grid >= lighting.interior.size() || !lighting.interior[grid];
 }
 
-constexpr size_t kSomeLinks = 256;
-
-/// Sum over targets, some of them standing for all.
-glm::vec3 sum_over(std::span<const uint32_t> targets, std::span<const glm::vec3> radiance,
-                   Detail detail) noexcept {
-    const size_t stride = detail == Detail::All ? 1 : (targets.size() + kSomeLinks - 1) / kSomeLinks;
-    glm::vec3 sum(0.0f);
-    size_t count = 0;
-    for (size_t i = 0; i < targets.size(); i += std::max<size_t>(stride, 1), ++count) {
-        sum += radiance[targets[i]];
+/// Sum over every `stride`th target.
+Rgb4 sum_over(std::span<const uint32_t> targets, std::span<const Rgb4> radiance, size_t stride) noexcept {
+    Rgb4 sums[4] = {}; // an addition need not wait for the one before
+    size_t i = 0;
+    for (; i + 3 * stride < targets.size(); i += 4 * stride) {
+        for (size_t k = 0; k < 4; ++k) {
+            sums[k] += radiance[targets[i + k * stride]];
+        }
     }
-    return count > 0 ? sum * (float(targets.size()) / float(count)) : sum;
+    for (; i < targets.size(); i += stride) {
+        sums[0] += radiance[targets[i]];
+    }
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 } // namespace
 
-std::vector<glm::vec3> gather_records(const Transport& t, const Lighting& lighting,
-                                      std::span<const glm::vec3> leaving, Detail detail) {
-    std::vector<glm::vec3> arriving(t.records.patch.size());
+std::vector<Rgb4> sky_lanes(const Lighting& lighting) {
+    std::vector<Rgb4> sky;
+    for (const glm::vec3& radiance : lighting.sky) {
+        sky.push_back(rgb4(radiance));
+    }
+    return sky;
+}
+
+std::vector<Rgb4> gather_records(const Transport& t, const Lighting& lighting,
+                                 std::span<const Rgb4> leaving) {
+    const std::vector<Rgb4> sky = sky_lanes(lighting);
+    std::vector<Rgb4> arriving(t.records.patch.size());
     for_all(arriving.size(), [&](size_t r) {
         const Links::Point& point = t.records.links.points[r];
-        glm::vec3 sum = sum_over(t.records.links.patches_of(point), leaving, detail);
+        Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving, 1);
         if (sky_reaches(t, lighting, t.records.patch[r])) {
-            sum += sum_over(t.records.links.skies_of(point), lighting.sky, detail);
+            sum += sum_over(t.records.links.skies_of(point), sky, 1);
         }
-        arriving[r] = t.records.emitted[r] + (point.ray_count > 0 ? sum / float(point.ray_count) : sum);
+        arriving[r] =
+            rgb4(t.records.emitted[r]) + sum * gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
     });
     return arriving;
 }
 
-void step_bounce(const Transport& t, std::span<const glm::vec3> first, std::span<const gi::float4> now,
-                 std::span<gi::float4> next) {
+void add_bounce(const Transport& t, std::span<const Rgb4> leaving, std::span<const Rgb4> first,
+                std::span<Rgb4> arriving) {
+    constexpr size_t kSomeLinks = 256;
+    for_all(arriving.size(), [&](size_t r) {
+        const Links::Point& point = t.records.links.points[r];
+        const std::span<const uint32_t> targets = t.records.links.patches_of(point);
+        const size_t stride = std::max<size_t>((targets.size() + kSomeLinks - 1) / kSomeLinks, 1);
+        const size_t count = std::max<size_t>((targets.size() + stride - 1) / stride, 1);
+        const float weight = float(targets.size()) / (float(count) * float(std::max(point.ray_count, 1u)));
+        arriving[r] = first[r] + sum_over(targets, leaving, stride) * gi::splat(weight);
+    });
+}
+
+void step_bounce(const Transport& t, std::span<const Rgb4> first, std::span<const Rgb4> now,
+                 std::span<Rgb4> next) {
     for_all(next.size(), [&](size_t r) {
-        gi::float4 sum{first[r].x, first[r].y, first[r].z, 0.0f};
+        Rgb4 sum = first[r];
         for (uint32_t e = t.exchange_first[r]; e < t.exchange_first[r + 1]; ++e) {
             const Transport::Exchange& x = t.exchanges[e];
-            sum += gi::float4{x.albedo.x, x.albedo.y, x.albedo.z, 0.0f} * now[x.record];
+            sum += rgb4(x.albedo) * now[x.record];
         }
         next[r] = sum;
     });
 }
 
-std::vector<glm::vec3> at_patches(const Transport& t, std::span<const glm::vec3> at_records) {
-    std::vector<glm::vec3> out(t.patches.size());
+std::vector<Rgb4> at_patches(const Transport& t, std::span<const Rgb4> at_records) {
+    std::vector<Rgb4> out(t.patches.size());
     const std::vector<glm::vec3>& detail = t.records.emitted_detail;
     for_all(out.size(), [&](size_t p) {
-        glm::vec3 sum = detail.empty() ? glm::vec3(0.0f) : detail[p];
+        Rgb4 sum = detail.empty() ? Rgb4{} : rgb4(detail[p]);
         for (const Records::Share& s : t.records.of_patch(uint32_t(p))) {
-            sum += s.weight * at_records[s.record];
+            sum += gi::splat(s.weight) * at_records[s.record];
         }
         out[p] = sum;
     });
     return out;
+}
+
+std::vector<Solution::Air> gather_air(const AirPoints& air, std::span<const Rgb4> sky,
+                                      std::span<const Rgb4> leaving) {
+    std::vector<Solution::Air> own(air.links.points.size());
+    for_all(own.size(), [&](size_t i) {
+        const Links::Point& point = air.links.points[i];
+        Rgb4 mean{}, x{}, y{}, z{};
+        const auto add = [&](std::span<const uint32_t> targets, uint32_t first, std::span<const Rgb4> light) {
+            for (size_t k = 0; k < targets.size(); ++k) {
+                const glm::vec3& d = air.directions[air.rays[first + k]];
+                const Rgb4 radiance = light[targets[k]];
+                mean += radiance;
+                x += radiance * gi::splat(d.x);
+                y += radiance * gi::splat(d.y);
+                z += radiance * gi::splat(d.z);
+            }
+        };
+        add(air.links.patches_of(point), point.first, leaving);
+        if (!sky.empty()) {
+            add(air.links.skies_of(point), point.first + point.patch_count, sky);
+        }
+        const Rgb4 scale = gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
+        own[i] = {rgb(mean * scale), {rgb(x * scale), rgb(y * scale), rgb(z * scale)}};
+    });
+    std::vector<Solution::Air> shown(own.size());
+    for_all(own.size(), [&](size_t i) { shown[i] = own[air.stand_in[i]]; });
+    return shown;
 }
 
 } // namespace cl::radiosity

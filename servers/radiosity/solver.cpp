@@ -1,6 +1,5 @@
 #include "servers/radiosity/solver.h"
 
-#include "servers/gi/float4.h"
 #include "servers/radiosity/gather.h"
 
 #include "core/threads.h"
@@ -34,12 +33,12 @@ float largest(const glm::vec3& v) noexcept {
 struct Progress {
     double change = 0.0, total = 0.0; ///< sums over records of the largest channel
 };
-Progress compare(std::span<const gi::float4> before, std::span<const gi::float4> after) noexcept {
+Progress compare(std::span<const Rgb4> before, std::span<const Rgb4> after) noexcept {
     Progress p;
     for (size_t r = 0; r < after.size(); ++r) {
-        const gi::float4 d = after[r] - before[r], v = after[r];
-        p.change += double(largest({d[0], d[1], d[2]}));
-        p.total += double(largest({v[0], v[1], v[2]}));
+        const Rgb4 d = after[r] - before[r], v = after[r];
+        p.change += double(largest(rgb(d)));
+        p.total += double(largest(rgb(v)));
     }
     return p;
 }
@@ -47,12 +46,9 @@ Progress compare(std::span<const gi::float4> before, std::span<const gi::float4>
 /// Sums the bounces after the first: the fixed point of step_bounce(), to which plain iteration converges as
 /// albedos stay below 1. Every fourth step goes as far as the changes' ratio says that all later ones would
 /// add up to (Aitken's extrapolation), which saves bright rooms most of their bounces.
-int bounce(const Transport& t, std::span<const glm::vec3> first, std::vector<glm::vec3>& arriving,
+int bounce(const Transport& t, std::span<const Rgb4> first, std::vector<Rgb4>& now,
            const std::atomic<bool>& stop) {
-    std::vector<gi::float4> now, next(arriving.size());
-    for (const glm::vec3& a : arriving) {
-        now.push_back(gi::float4{a.x, a.y, a.z, 0.0f});
-    }
+    std::vector<Rgb4> next(now.size());
     double last_change = 0.0;
     int n = 1;
     for (; n <= kMaxBounces && !stop; ++n) {
@@ -62,7 +58,7 @@ int bounce(const Transport& t, std::span<const glm::vec3> first, std::vector<glm
         // What is still missing is this change times ratio / (1 - ratio).
         const bool done = p.change * ratio <= double(kTolerance) * p.total * (1.0 - ratio) && n > 2;
         if (n % 4 == 0 && !done) {
-            const gi::float4 ahead = gi::splat(float(ratio / (1.0 - ratio)));
+            const Rgb4 ahead = gi::splat(float(ratio / (1.0 - ratio)));
             for (size_t r = 0; r < next.size(); ++r) {
                 next[r] += ahead * (next[r] - now[r]);
             }
@@ -74,9 +70,6 @@ int bounce(const Transport& t, std::span<const glm::vec3> first, std::vector<glm
         if (done || p.total == 0.0) {
             break;
         }
-    }
-    for (size_t r = 0; r < now.size(); ++r) {
-        arriving[r] = {now[r][0], now[r][1], now[r][2]};
     }
     return n;
 }
@@ -91,41 +84,21 @@ std::vector<glm::vec3> light_of(const Transport& t, const Source& source) {
 }
 
 /// Light that each patch sends on.
-std::vector<glm::vec3> sent_on(const Transport& t, std::span<const glm::vec3> direct,
-                               std::span<const glm::vec3> arriving) {
-    std::vector<glm::vec3> out(t.patches.size());
+std::vector<Rgb4> sent_on(const Transport& t, std::span<const glm::vec3> direct,
+                          std::span<const Rgb4> arriving) {
+    std::vector<Rgb4> out(t.patches.size());
     for_all(out.size(), [&](size_t p) {
-        out[p] = t.patches.albedo[p] * (direct[p] + (arriving.empty() ? glm::vec3(0.0f) : arriving[p]));
+        const Rgb4 straight = direct.empty() ? Rgb4{} : rgb4(direct[p]);
+        const Rgb4 all = arriving.empty() ? straight : straight + arriving[p];
+        out[p] = rgb4(t.patches.albedo[p]) * all;
     });
     return out;
 }
 
-std::vector<Solution::Air> gather_air(const AirPoints& air, const Lighting& lighting, bool with_sky,
-                                      std::span<const glm::vec3> leaving) {
-    std::vector<Solution::Air> own(air.links.points.size());
-    for_all(own.size(), [&](size_t i) {
-        const Links::Point& point = air.links.points[i];
-        Solution::Air a{};
-        const auto add = [&](const glm::vec3& radiance, const glm::vec3& direction) {
-            a.mean += radiance;
-            for (int axis = 0; axis < 3; ++axis) {
-                a.slope[size_t(axis)] += radiance * direction[axis];
-            }
-        };
-        for (uint32_t k = 0; k < point.patch_count + point.sky_count; ++k) {
-            const uint32_t target = air.links.targets[point.first + k];
-            const bool is_sky = k >= point.patch_count;
-            if (!is_sky || with_sky) {
-                add(is_sky ? lighting.sky[target] : leaving[target],
-                    air.directions[air.rays[point.first + k]]);
-            }
-        }
-        const float scale = point.ray_count > 0 ? 1.0f / float(point.ray_count) : 0.0f;
-        own[i] = {a.mean * scale, {a.slope[0] * scale, a.slope[1] * scale, a.slope[2] * scale}};
-    });
-    std::vector<Solution::Air> shown(own.size());
-    for_all(own.size(), [&](size_t i) { shown[i] = own[air.stand_in[i]]; });
-    return shown;
+std::vector<glm::vec3> in_three(std::span<const Rgb4> colors) {
+    std::vector<glm::vec3> out(colors.size());
+    for_all(out.size(), [&](size_t i) { out[i] = rgb(colors[i]); });
+    return out;
 }
 
 } // namespace
@@ -182,19 +155,22 @@ Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<b
     Solution s;
     DirectCache fresh;
     const std::vector<glm::vec3> direct = (cache ? *cache : fresh).gather(t, lighting.sources);
-    const std::vector<glm::vec3> first = gather_records(t, lighting, sent_on(t, direct, {}), Detail::Some);
-    std::vector<glm::vec3> arriving = first;
+    // Light straight from sources has edges: all links gather it, once. What bounced is smooth: some do.
+    const std::vector<Rgb4> first = gather_records(t, lighting, sent_on(t, direct, {}));
+    std::vector<Rgb4> arriving = first;
     s.bounces = bounce(t, first, arriving, stop);
     // The last bounce again, from patches instead of records: what is seen has the detail.
-    const std::vector<glm::vec3> before_last = at_patches(t, arriving);
-    arriving = gather_records(t, lighting, sent_on(t, direct, before_last), Detail::All);
-    s.arriving = at_patches(t, arriving);
-    s.leaving = sent_on(t, direct, s.arriving);
-    for_all(s.leaving.size(), [&](size_t p) { s.leaving[p] += t.patches.emission[p]; });
+    add_bounce(t, sent_on(t, {}, at_patches(t, arriving)), first, arriving);
+    const std::vector<Rgb4> seen = at_patches(t, arriving);
+    std::vector<Rgb4> leaving = sent_on(t, direct, seen);
+    for_all(leaving.size(), [&](size_t p) { leaving[p] += rgb4(t.patches.emission[p]); });
+    const std::vector<Rgb4> sky = sky_lanes(lighting);
     for (size_t i = 0; i < t.air.size() && !stop; ++i) {
-        s.air.push_back(gather_air(t.air[i], lighting,
-                                   !(i < lighting.interior.size() && lighting.interior[i]), s.leaving));
+        const bool is_interior = i < lighting.interior.size() && lighting.interior[i];
+        s.air.push_back(gather_air(t.air[i], is_interior ? std::span<const Rgb4>{} : sky, leaving));
     }
+    s.arriving = in_three(seen);
+    s.leaving = in_three(leaving);
     return s;
 }
 

@@ -80,7 +80,7 @@ uint32_t main_record(const Records& records, uint32_t patch) noexcept {
 
 /// Later bounces are smooth: a few hundred of a point's links, evenly chosen, stand for all.
 std::vector<Transport::Exchange> exchanges_of(const Transport& t, const Links::Point& point) {
-    constexpr size_t kMostLinks = 256;
+    constexpr size_t kMostLinks = 96;
     const std::span<const uint32_t> links = t.records.links.patches_of(point);
     const size_t stride = (links.size() + kMostLinks - 1) / kMostLinks;
     const size_t asked = stride > 0 ? (links.size() + stride - 1) / stride : 0;

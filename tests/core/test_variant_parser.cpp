@@ -141,7 +141,8 @@ TEST_SUITE("core/variant/variant_parser values") {
 
     TEST_CASE("arrays and dictionaries nest and allow a comma at the end") {
         CHECK(read("[]") == Variant(Array{}));
-        CHECK(read("[ 1, \"two\", [ [ ] ], null, ]") == Variant(Array{1, "two", Array{Array{}}, Variant()}));
+        CHECK(read("[ 1, \"two\", [ [ ] ], null, ]") ==
+              Variant(Array{1, "two", Array{Variant(Array{})}, Variant()}));
         const Variant d = read("{ \"a\": { \"b\": [ 1 ] }, 2: true, }");
         REQUIRE(d.get_if<Dictionary>());
         CHECK(*d.get_if<Dictionary>()->find("a")->get_if<Dictionary>()->find("b") == Variant(Array{1}));

@@ -102,38 +102,38 @@ BENCHMARK(solve_one_lamp)->Unit(benchmark::kMillisecond)->UseRealTime();
 void gather_all_links(benchmark::State& state) {
     const Transport& t = transport();
     const Lighting lighting = one_lamp();
-    const std::vector<glm::vec3> leaving(t.patches.size(), glm::vec3(1.0f));
+    const std::vector<Rgb4> leaving(t.patches.size(), gi::splat(1.0f));
     for (auto _ : state) {
         static_cast<void>(_);
-        benchmark::DoNotOptimize(gather_records(t, lighting, leaving, Detail::All).data());
+        benchmark::DoNotOptimize(gather_records(t, lighting, leaving).data());
     }
-    report_bytes(state, t.records.links.targets.size() * (sizeof(uint32_t) + sizeof(glm::vec3)));
+    report_bytes(state, t.records.links.targets.size() * (sizeof(uint32_t) + sizeof(Rgb4)));
 }
 BENCHMARK(gather_all_links)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void bounce_once(benchmark::State& state) {
     const Transport& t = transport();
-    const std::vector<glm::vec3> first(t.records.patch.size(), glm::vec3(1.0f));
-    const std::vector<gi::float4> now(first.size(), gi::splat(1.0f));
-    std::vector<gi::float4> next(first.size());
+    const std::vector<Rgb4> first(t.records.patch.size(), gi::splat(1.0f));
+    const std::vector<Rgb4> now(first.size(), gi::splat(1.0f));
+    std::vector<Rgb4> next(first.size());
     for (auto _ : state) {
         static_cast<void>(_);
         step_bounce(t, first, now, next);
         benchmark::DoNotOptimize(next.data());
     }
-    report_bytes(state, t.exchanges.size() * (sizeof(Transport::Exchange) + sizeof(gi::float4)));
+    report_bytes(state, t.exchanges.size() * (sizeof(Transport::Exchange) + sizeof(Rgb4)));
 }
 BENCHMARK(bounce_once)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void interpolate_patches(benchmark::State& state) {
     const Transport& t = transport();
-    const std::vector<glm::vec3> records(t.records.patch.size(), glm::vec3(1.0f));
+    const std::vector<Rgb4> records(t.records.patch.size(), gi::splat(1.0f));
     for (auto _ : state) {
         static_cast<void>(_);
         benchmark::DoNotOptimize(at_patches(t, records).data());
     }
-    report_bytes(state, t.records.shares.size() * (sizeof(Records::Share) + sizeof(glm::vec3)) +
-                            t.patches.size() * (sizeof(glm::vec3) + sizeof(uint32_t)));
+    report_bytes(state, t.records.shares.size() * (sizeof(Records::Share) + sizeof(Rgb4)) +
+                            t.patches.size() * (sizeof(Rgb4) + sizeof(uint32_t)));
 }
 BENCHMARK(interpolate_patches)->Unit(benchmark::kMillisecond)->UseRealTime();
 
