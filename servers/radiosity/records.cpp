@@ -21,7 +21,7 @@ constexpr float kSpacingPerDistance = 0.3f; // a record serves this part of the 
 constexpr uint32_t kProbeRays = 32;
 constexpr uint32_t kRays[kTopLevel + 1] = {512, 768, 1024};
 // Where records are many they lie close and share their noise: a scene takes about this many rays in all.
-constexpr uint64_t kRayBudget = 12'000'000;
+constexpr uint64_t kRayBudget = 6'000'000;
 constexpr uint32_t kLeastRays = 96;
 
 /// Interleaves bits: neighbours in a block of 2^k cells differ in the low 3 k bits.
