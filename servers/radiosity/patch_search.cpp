@@ -3,13 +3,45 @@
 #include "servers/radiosity/fragments.h"
 #include "servers/radiosity/patches.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
 #include <array>
 #include <utility>
 
 namespace cl::radiosity {
 
-uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const noexcept {
-    for (const Grid& g : grids) {
+namespace {
+
+constexpr float kLeastFacing = 0.3f;
+constexpr float kFacesTheSameWay = 0.8f; // within 37 degrees, as the fragments of a patch do
+
+/// The patch of a cell that a point belongs to. A patch that faces elsewhere is not the point's surface.
+uint32_t best_of_cell(const Patches& patches, const Patches::Grid& grid, uint32_t cell,
+                      const glm::vec3& point, const glm::vec3& facing) noexcept {
+    uint32_t best = kNoPatch;
+    float best_score = 0.5f;
+    for (uint32_t p = grid.first[cell]; p < grid.first[cell + 1]; ++p) {
+        const float turned = glm::dot(patches.normal[p], facing);
+        const float apart = glm::distance(patches.position[p], point) / grid.cells.cell_m;
+        const float score = 1.0f + turned - 0.3f * apart;
+        if (turned > kLeastFacing && score > best_score) {
+            best = p;
+            best_score = score;
+        }
+    }
+    return best;
+}
+
+struct Found {
+    uint32_t patch = kNoPatch;
+    const Patches::Grid* grid = nullptr; ///< the first that the point lies in
+    bool alone = false;                  ///< in its cell
+};
+
+Found search(const Patches& patches, const glm::vec3& point, const glm::vec3& facing) noexcept {
+    for (const Patches::Grid& g : patches.grids) {
         const glm::vec3 at =
             g.cells.cells_from_world.xform(point - 2.0f * kNudge_cells * g.cells.cell_m * facing);
         if (!g.cells.contains(at)) {
@@ -17,26 +49,17 @@ uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const no
         }
         const uint32_t cell = g.index.find(glm::ivec3(glm::floor(at)));
         if (cell == CellIndex::kNone) {
-            return kNoPatch;
+            return {kNoPatch, &g, false};
         }
-        uint32_t best = kNoPatch;
-        float best_score = 0.5f; // a patch that faces elsewhere is not this surface's
-        for (uint32_t p = g.first[cell]; p < g.first[cell + 1]; ++p) {
-            const float apart = glm::distance(position[p], point) / g.cells.cell_m;
-            const float score = 1.0f + glm::dot(normal[p], facing) - 0.3f * apart;
-            if (glm::dot(normal[p], facing) > 0.3f && score > best_score) {
-                best = p;
-                best_score = score;
-            }
+        const Patches::Grid::Sought& sought = g.sought[cell];
+        if (sought.normal == 0) {
+            return {best_of_cell(patches, g, cell, point, facing), &g, false};
         }
-        return best;
+        const glm::vec3 normal(glm::unpackSnorm3x10_1x2(sought.normal));
+        return {glm::dot(normal, facing) > kLeastFacing ? sought.first : kNoPatch, &g, true};
     }
-    return kNoPatch;
+    return {};
 }
-
-namespace {
-
-constexpr float kFacesTheSameWay = 0.8f; // within 37 degrees, as the fragments of a patch do
 
 bool sees(const RayScene& rays, const Patches& patches, const glm::vec3& point, const glm::vec3& facing,
           uint32_t patch) noexcept {
@@ -78,22 +101,20 @@ size_t nearest_around(const Patches& patches, const Patches::Grid& grid, const g
 
 } // namespace
 
+uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const noexcept {
+    return search(*this, point, facing).patch;
+}
+
 uint32_t Patches::find_seen(const RayScene& rays, const glm::vec3& point,
                             const glm::vec3& facing) const noexcept {
-    const uint32_t own = find(point, facing);
-    if (own == kNoPatch) {
-        return own;
-    }
-    const Grid& g = grids[grid[own]];
-    const uint32_t cell = g.index.find(g.cells.cell_at(order[own]));
-    const bool alone = g.first[cell + 1] - g.first[cell] == 1;
-    if (alone || sees(rays, *this, point, facing, own)) {
-        return own;
+    const Found own = search(*this, point, facing);
+    if (own.patch == kNoPatch || own.alone || sees(rays, *this, point, facing, own.patch)) {
+        return own.patch;
     }
     std::array<std::pair<float, uint32_t>, 6> around;
-    const size_t count = nearest_around(*this, g, point, facing, around);
+    const size_t count = nearest_around(*this, *own.grid, point, facing, around);
     for (size_t i = 0; i < count; ++i) {
-        if (around[i].second != own && sees(rays, *this, point, facing, around[i].second)) {
+        if (around[i].second != own.patch && sees(rays, *this, point, facing, around[i].second)) {
             return around[i].second;
         }
     }

@@ -5,8 +5,12 @@
 
 #include "core/threads.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace cl::radiosity {
 namespace {
@@ -204,25 +208,30 @@ void append(Patches& out, const Draft& d) {
 }
 
 /// Numbers the occupied cells; patches stand in their order.
-void index_cells(Patches& patches, std::vector<CellGrid> grids) {
+void index_cells(Patches& patches, std::span<const CellGrid> grids) {
     size_t at = 0;
-    for (size_t g = 0; g < grids.size(); ++g) {
+    for (const CellGrid& cells : grids) {
+        Patches::Grid grid{cells, {}, {}, {}};
         std::vector<uint64_t> orders;
-        std::vector<uint32_t> first;
-        for (; at < patches.size() && patches.grid[at] == g; ++at) {
+        const size_t number = patches.grids.size();
+        for (; at < patches.size() && patches.grid[at] == number; ++at) {
             if (orders.empty() || orders.back() != patches.order[at]) {
                 orders.push_back(patches.order[at]);
-                first.push_back(uint32_t(at));
+                grid.first.push_back(uint32_t(at));
+                grid.sought.push_back({uint32_t(at), glm::packSnorm3x10_1x2({patches.normal[at], 1.0f})});
+            } else {
+                grid.sought.back().normal = 0;
             }
         }
-        first.push_back(uint32_t(at));
-        patches.grids.push_back({grids[g], CellIndex(grids[g], orders), std::move(first)});
+        grid.first.push_back(uint32_t(at));
+        grid.index = CellIndex(cells, orders);
+        patches.grids.push_back(std::move(grid));
     }
 }
 
 } // namespace
 
-Patches make_patches(const StillScene& scene, const RayScene& rays, std::vector<CellGrid> grids,
+Patches make_patches(const StillScene& scene, const RayScene& rays, std::span<const CellGrid> grids,
                      size_t probe_count) {
     const std::vector<Fragment> all = cut_fragments(scene, grids, probe_count);
     const std::vector<size_t> starts = cell_starts(all);
@@ -243,7 +252,7 @@ Patches make_patches(const StillScene& scene, const RayScene& rays, std::vector<
             append(patches, d);
         }
     }
-    index_cells(patches, std::move(grids));
+    index_cells(patches, grids);
     return patches;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cl::radiosity {
@@ -21,6 +22,13 @@ struct Patches {
         CellGrid cells;
         CellIndex index;
         std::vector<uint32_t> first; ///< first patch of each occupied cell, and one past the last
+        /// What a search reads of an occupied cell. Most hold one patch, and there it needs no more: searches
+        /// jump about, and each further word of memory would cost them a cache miss.
+        struct Sought {
+            uint32_t first;  ///< patch
+            uint32_t normal; ///< of the only patch, as packSnorm3x10_1x2 with w = 1; 0: there are several
+        };
+        std::vector<Sought> sought;
     };
     std::vector<Grid> grids; ///< finest first
 
@@ -46,8 +54,8 @@ struct Patches {
 /// @param grids  the probes' (`probe_count` of them, each cut in full), then outer ones that hold only what
 /// no grid
 ///               before them does. Points outside all get no patch.
-[[nodiscard]] Patches make_patches(const StillScene& scene, const RayScene& rays, std::vector<CellGrid> grids,
-                                   size_t probe_count);
+[[nodiscard]] Patches make_patches(const StillScene& scene, const RayScene& rays,
+                                   std::span<const CellGrid> grids, size_t probe_count);
 
 /// How far a cell's own point stands in front of its surface when rays start there [cells].
 inline constexpr float kLift = 0.02f;
