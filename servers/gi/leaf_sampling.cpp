@@ -4,6 +4,7 @@
 #include "servers/gi/triangle_box.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 namespace cl::gi {
@@ -87,27 +88,56 @@ Sample sample_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q
     return {texel_of(s.material->albedo, at.uv), texel_of(s.material->emission, at.uv), at.normal};
 }
 
-/// Bit (4 i + j) is set where the triangle touches the column at steps i along u and j along w.
-uint32_t touched_columns(const LeafBox& leaf, const PlotTriangle& t) {
-    const int axis = t.axis;
-    const int u = (axis + 1) % 3;
-    const int w = (axis + 2) % 3;
-    const float step = leaf.size_m / float(kColumns);
-    const auto place = [](Boxes<float4>& boxes, int a, float4 from, float size) {
-        const float4 to = from + size;
-        boxes.half[a] = (to - from) * 0.5f;
-        boxes.center[a] = from + boxes.half[a];
-    };
-    Boxes<float4> boxes;
-    place(boxes, axis, splat(leaf.position[axis]), leaf.size_m);
-    place(boxes, w, leaf.position[w] + float4{0.0f, 1.0f, 2.0f, 3.0f} * step, step);
-    uint32_t columns = 0;
-    for (int i = 0; i < kColumns; ++i) {
-        place(boxes, u, splat(leaf.position[u] + float(i) * step), step);
-        columns |= overlapping_boxes(boxes, t.v) << (kColumns * i);
+/// Columns of a leaf along a triangle's main axis, four at a time.
+class Columns {
+public:
+    Columns(const LeafBox& leaf, const PlotTriangle& t)
+        : leaf_(leaf), t_(t), u_((t.axis + 1) % 3), w_((t.axis + 2) % 3),
+          step_m_(leaf.size_m / float(kColumns)) {}
+
+    /// Bit (4 i + j) is set where the triangle touches the column at steps i along u and j along w.
+    [[nodiscard]] uint32_t touched() const {
+        if (all_are_sure()) {
+            return 0xFFFFu;
+        }
+        uint32_t columns = 0;
+        for (int i = 0; i < kColumns; ++i) {
+            const Boxes<float4> boxes = at(splat(float(i)), float4{0.0f, 1.0f, 2.0f, 3.0f});
+            columns |= overlapping_boxes(boxes, t_.v, t_.center_test, 0.5f * step_m_) << (kColumns * i);
+        }
+        return columns;
     }
-    return columns;
-}
+
+private:
+    /// True if the cheap test settles the four columns at the corners: what it asks of their middles then
+    /// holds between them.
+    [[nodiscard]] bool all_are_sure() const {
+        if (0.5f * step_m_ < t_.center_test.least_half_m) {
+            return false;
+        }
+        const Boxes<float4> corners = at(float4{0.0f, 0.0f, 3.0f, 3.0f}, float4{0.0f, 3.0f, 0.0f, 3.0f});
+        return lane_bits(surely_touches(t_.center_test, corners)) == 15u &&
+               lane_bits(separated_by_box_axis(corners, t_.v)) == 0u;
+    }
+
+    [[nodiscard]] Boxes<float4> at(float4 i, float4 j) const {
+        Boxes<float4> boxes;
+        place(boxes, t_.axis, splat(leaf_.position[t_.axis]), leaf_.size_m);
+        place(boxes, u_, leaf_.position[u_] + i * step_m_, step_m_);
+        place(boxes, w_, leaf_.position[w_] + j * step_m_, step_m_);
+        return boxes;
+    }
+    static void place(Boxes<float4>& boxes, int axis, float4 from, float size) {
+        const float4 to = from + size;
+        boxes.half[axis] = (to - from) * 0.5f;
+        boxes.center[axis] = from + boxes.half[axis];
+    }
+
+    const LeafBox& leaf_;
+    const PlotTriangle& t_;
+    int u_, w_;
+    float step_m_;
+};
 
 /// Where the column's axis meets the triangle, or comes nearest to it (steps 2 to 4).
 glm::vec3 point_in_column(const LeafBox& leaf, const PlotTriangle& t, int i, int j) {
@@ -147,36 +177,48 @@ void add(LeafSum& sum, const Sample& sample) {
     sum.normal += sample.normal;
 }
 
-/// Sums the samples of all touched columns. A zero normal falls back to the plane's.
+/// A zero normal falls back to the plane's.
+Sample with_normal(Sample sample, const PlotTriangle& t) {
+    sample.normal = sample.normal == glm::vec3(0.0f) ? t.plane_normal : sample.normal;
+    return sample;
+}
+
+/// Sums the samples of all touched columns.
 LeafSum sum_columns(const LeafBox& leaf, const PlotTriangle& t, const PlotSurface& s, uint32_t columns) {
     LeafSum sum;
-    Sample sample;
-    if (t.is_uniform) {
-        sample = sample_at(t, s, t.v[0]);
-    }
     for (int bit = 0; bit < kColumns * kColumns; ++bit) {
-        if (((columns >> bit) & 1u) == 0) {
-            continue;
+        if ((columns >> bit) & 1u) {
+            const glm::vec3 q = point_in_column(leaf, t, bit / kColumns, bit % kColumns);
+            add(sum, with_normal(sample_at(t, s, q), t));
+            sum.alpha += 1.0f;
         }
-        if (!t.is_uniform) {
-            sample = sample_at(t, s, point_in_column(leaf, t, bit / kColumns, bit % kColumns));
-        }
-        if (sample.normal == glm::vec3(0.0f)) {
-            sample.normal = t.plane_normal;
-        }
-        add(sum, sample);
-        sum.alpha += 1.0f;
     }
     return sum;
 }
 
 } // namespace
 
-void plot_leaf(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
-               LeafSum& sum) noexcept {
+const LeafSum& LeafSampler::uniform_sum(const PlotTriangle& t, const PlotSurface& s, int count) noexcept {
+    UniformSums& sums = known_[size_t(t.vertex[0] + t.vertex[1] + t.vertex[2]) % known_.size()];
+    if (sums.triangle != &t) {
+        const Sample sample = with_normal(sample_at(t, s, t.v[0]), t);
+        sums.triangle = &t;
+        for (size_t n = 1; n < sums.of.size(); ++n) {
+            sums.of[n] = sums.of[n - 1];
+            add(sums.of[n], sample);
+            sums.of[n].alpha += 1.0f;
+        }
+    }
+    return sums.of[size_t(count)];
+}
+
+void LeafSampler::plot(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
+                       LeafSum& sum) noexcept {
     constexpr float kSampleWeight = 1.0f / float(kColumns * kColumns);
-    LeafSum own = sum_columns(leaf, triangle, surface, touched_columns(leaf, triangle));
-    if (own.alpha == 0.0f) { // numerically missed by every column: one sample, whose zero normal stays zero
+    const uint32_t columns = Columns(leaf, triangle).touched();
+    LeafSum own = triangle.is_uniform ? uniform_sum(triangle, surface, int(std::bitset<16>(columns).count()))
+                                      : sum_columns(leaf, triangle, surface, columns);
+    if (columns == 0) { // numerically missed by every column: one sample, whose zero normal stays zero
         const glm::vec3 center = leaf.position + leaf.size_m * 0.5f;
         add(own, sample_at(triangle, surface, closest_point_of_triangle(triangle.v, center)));
         own.alpha = 1.0f;

@@ -4,6 +4,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+
 namespace cl::gi {
 
 /// What the triangles that touch a leaf add up to. Colours are sRGB-encoded numbers.
@@ -20,9 +22,23 @@ struct LeafBox {
     float size_m = 0.0f;
 };
 
-/// Samples a triangle on the 4 x 4 columns of a leaf that it touches and adds the result (spec gi-bake
-/// section 5). float32 throughout, in the specification's order. @param surface  the triangle's own.
-void plot_leaf(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
-               LeafSum& sum) noexcept;
+/// Samples triangles on the 4 x 4 columns of leaves (spec gi-bake section 5), float32 throughout, in the
+/// specification's order. One a worker: it remembers what the last few uniform triangles add up to.
+class LeafSampler {
+public:
+    /// Adds what a triangle shows in a leaf that it touches. @param surface  the triangle's own.
+    void plot(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
+              LeafSum& sum) noexcept;
+
+private:
+    /// Of n equal samples, added one after the other as float32 rounds that; n = 0 to 16.
+    struct UniformSums {
+        const PlotTriangle* triangle = nullptr;
+        std::array<LeafSum, 17> of;
+    };
+    const LeafSum& uniform_sum(const PlotTriangle& triangle, const PlotSurface& surface, int count) noexcept;
+
+    std::array<UniformSums, 8> known_;
+};
 
 } // namespace cl::gi

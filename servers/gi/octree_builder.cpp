@@ -127,7 +127,7 @@ void SubtreeBuilder::build_leaf(const CellBox& box, List touching) {
     LeafSum sum;
     for (size_t i = 0; i < touching.count; ++i) {
         const PlotTriangle& t = triangles_[ids_[touching.begin + i]];
-        plot_leaf({box.position, box.size_m}, t, surfaces_[t.surface], sum);
+        sampler_.plot({box.position, box.size_m}, t, surfaces_[t.surface], sum);
     }
     cells_.push_back(leaf_cell(box.level, sum));
     ++leaf_count_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/gi/leaf_sampling.h"
 #include "servers/gi/plot_triangle.h"
 #include "servers/gi/triangle_box.h"
 
@@ -33,8 +34,9 @@ struct Octants {
 [[nodiscard]] Octants octants_of(const Grid& grid, const CellBox& parent) noexcept;
 /// Bit of each slot inside the grid that the triangle touches.
 [[nodiscard]] inline uint8_t touched_octants(const Octants& octants, const PlotTriangle& triangle) noexcept {
-    const uint32_t lower = overlapping_boxes(octants.lower, triangle.v);
-    const uint32_t upper = overlapping_boxes(octants.upper, triangle.v);
+    const float half_m = octants.lower.half[0][0];
+    const uint32_t lower = overlapping_boxes(octants.lower, triangle.v, triangle.center_test, half_m);
+    const uint32_t upper = overlapping_boxes(octants.upper, triangle.v, triangle.center_test, half_m);
     return uint8_t((lower | (upper << 4)) & octants.inside);
 }
 
@@ -81,6 +83,7 @@ private:
     std::span<const PlotSurface> surfaces_;
     std::span<const PlotTriangle> triangles_;
     BakeControl& control_;
+    LeafSampler sampler_;
     std::vector<Cell> cells_;
     size_t counted_cells_ = 0;
     uint32_t leaf_count_ = 0;

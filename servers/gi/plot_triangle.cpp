@@ -104,6 +104,7 @@ void collect_surface(const PlotSurface& s, uint32_t number, const Boxes<float>& 
         }
         set_plane(t);
         t.is_uniform = is_uniform(s, t.vertex);
+        t.center_test = make_center_test(t.v, t.axis);
         out.push_back(t);
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/gi/center_test.h"
 #include "servers/gi/voxelizer.h"
 
 #include <glm/vec3.hpp>
@@ -22,6 +23,7 @@ struct PlotTriangle {
     /// interpolation cannot move. Lets most walls skip the interpolation (spec gi-bake section 5, steps 2 to
     /// 6).
     bool is_uniform;
+    CenterTest center_test;
 };
 
 /// The triangles of all surfaces that touch `box`, in plot order (surface after surface, triangle after

@@ -36,10 +36,11 @@ inline CenteredTriangle<F> centered(const Boxes<F>& boxes, const glm::vec3 (&ver
 
 /// True where a box axis separates (rule 2 of spec gi-bake section 4.1).
 template <typename F>
-inline auto separated_by_box_axis(const Boxes<F>& boxes, const CenteredTriangle<F>& t) noexcept {
+inline auto separated_by_box_axis(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
+    // Subtracting the centre keeps the order of numbers: the least is found before, not of three differences.
     const auto on = [&](int a) {
-        const F lo = lesser(lesser(t.v[0][a], t.v[1][a]), t.v[2][a]);
-        const F hi = greater(greater(t.v[0][a], t.v[1][a]), t.v[2][a]);
+        const F lo = lesser(lesser(vertices[0][a], vertices[1][a]), vertices[2][a]) - boxes.center[a];
+        const F hi = greater(greater(vertices[0][a], vertices[1][a]), vertices[2][a]) - boxes.center[a];
         return either(lo > boxes.half[a], hi < -boxes.half[a]);
     };
     return either(either(on(0), on(1)), on(2));
@@ -102,7 +103,7 @@ inline auto separated(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noe
     const CenteredTriangle<F> t = centered(boxes, vertices);
     const auto by_edges = either(either(separated_by_edge<0>(boxes, t), separated_by_edge<1>(boxes, t)),
                                  separated_by_edge<2>(boxes, t));
-    return either(separated_by_box_axis(boxes, t), either(by_edges, separated_by_plane(boxes, t)));
+    return either(separated_by_box_axis(boxes, vertices), either(by_edges, separated_by_plane(boxes, t)));
 }
 
 /// Bit i is set where box i of four touches the triangle.
