@@ -5,6 +5,7 @@
 #include "core/threads.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace cl::gi {
 
@@ -21,21 +22,17 @@ Energy rounded(float energy) {
     return energy > 0.0f ? Energy(std::min(energy + 0.5f, 65535.0f)) : Energy(0);
 }
 
-void downsample_cell(const CellLayout& layout, uint32_t index, float propagation, std::vector<Energy>& rgb) {
+void downsample_cell(const CellLayout& layout, size_t index, float propagation, std::vector<Energy>& rgb) {
+    const uint32_t first = layout.first_child[index], end = layout.first_child[index + 1];
     float sum[3] = {0.0f, 0.0f, 0.0f};
-    int count = 0;
-    for (const uint32_t child : layout.cells[index].children) {
-        if (child == kNoChild) {
-            continue;
-        }
-        ++count;
+    for (size_t child = first; child < end; ++child) {
         for (size_t c = 0; c < 3; ++c) {
-            sum[c] += float(rgb[size_t(child) * 3 + c]);
+            sum[c] += float(rgb[child * 3 + c]);
         }
     }
-    const float divisor = 8.0f + float(count - 8) * propagation;
+    const float divisor = 8.0f + float(int(end - first) - 8) * propagation;
     for (size_t c = 0; c < 3; ++c) {
-        rgb[size_t(index) * 3 + c] = rounded(sum[c] / divisor);
+        rgb[index * 3 + c] = rounded(sum[c] / divisor);
     }
 }
 
@@ -44,19 +41,17 @@ void downsample_cell(const CellLayout& layout, uint32_t index, float propagation
 void energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies, float propagation,
                           CellEnergies& out) {
     CL_ASSERT(leaf_energies.size() == layout.leaves.size() * 3, "three energies a leaf");
-    out.rgb.resize(layout.cells.size() * 3);
-    parallel_for(layout.leaves.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            for (size_t c = 0; c < 3; ++c) {
-                out.rgb[size_t(layout.leaves[i].cell) * 3 + c] = clamped(leaf_energies[i * 3 + c]);
-            }
-        }
+    out.rgb.resize(layout.cell_count() * 3);
+    const size_t first_leaf = layout.cell_count() - layout.leaves.size();
+    parallel_for(leaf_energies.size(), 3 * kGrain, [&](size_t begin, size_t end) {
+        std::transform(leaf_energies.begin() + ptrdiff_t(begin), leaf_energies.begin() + ptrdiff_t(end),
+                       out.rgb.begin() + ptrdiff_t(first_leaf * 3 + begin), clamped);
     });
     for (int level = layout.levels - 2; level >= 0; --level) {
-        const std::vector<uint32_t>& cells = layout.cells_of_level[size_t(level)];
-        parallel_for(cells.size(), kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                downsample_cell(layout, cells[i], propagation, out.rgb);
+        const size_t first = layout.level_begin[size_t(level)];
+        parallel_for(layout.level_begin[size_t(level) + 1] - first, kGrain, [&](size_t begin, size_t end) {
+            for (size_t i = first + begin; i < first + end; ++i) {
+                downsample_cell(layout, i, propagation, out.rgb);
             }
         });
     }

@@ -165,56 +165,69 @@ glm::ivec3 reflected(const glm::ivec3& light_color, float attenuation, const glm
     return energy;
 }
 
-/// Leaves a run of which is worked on by one thread.
-constexpr size_t kRun = 1024;
+/// Leaves that one thread works on at a time, in their order.
+struct Run {
+    struct Lit {
+        uint32_t leaf;
+        Ray ray;
+    };
+    std::vector<Lit> lit; ///< leaves that face the light within its reach
+    ClipPlanes planes;    ///< as the run finds them
+    static constexpr size_t kLeaves = 1024;
+};
 
-std::span<const Leaf> run_of_leaves(const CellLayout& layout, size_t run) {
-    const std::span<const Leaf> leaves(layout.leaves);
-    return leaves.subspan(run * kRun, std::min(kRun, leaves.size() - run * kRun));
-}
-
-/// How each run of leaves finds the clip planes.
-std::vector<ClipPlanes> planes_at_runs(const CellLayout&, const Sun& sun, size_t runs) {
-    return std::vector<ClipPlanes>(runs, sun.planes());
-}
-
-/// They turn from leaf to leaf, in the leaves' order.
-std::vector<ClipPlanes> planes_at_runs(const CellLayout& layout, const Lamp& lamp, size_t runs) {
-    std::vector<ClipPlanes> planes(runs);
-    parallel_for(runs, 1, [&](size_t begin, size_t end) {
+template <typename Light>
+std::vector<Run> aim(const CellLayout& layout, const Light& light) {
+    std::vector<Run> runs((layout.leaves.size() + Run::kLeaves - 1) / Run::kLeaves);
+    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
         for (size_t run = begin; run < end; ++run) {
-            for (const Leaf& leaf : run_of_leaves(layout, run)) {
-                if (const std::optional<Ray> ray = lamp.ray_to(leaf)) {
-                    lamp.turn(planes[run], *ray);
+            const size_t last = std::min((run + 1) * Run::kLeaves, layout.leaves.size());
+            for (size_t i = run * Run::kLeaves; i < last; ++i) {
+                if (const std::optional<Ray> ray = light.ray_to(layout.leaves[i])) {
+                    runs[run].lit.push_back({uint32_t(i), *ray});
                 }
             }
         }
     });
+    return runs;
+}
+
+void set_planes(const Sun& sun, std::vector<Run>& runs) {
+    for (Run& run : runs) {
+        run.planes = sun.planes();
+    }
+}
+
+/// They turn from leaf to leaf, in the leaves' order.
+void set_planes(const Lamp& lamp, std::vector<Run>& runs) {
+    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t run = begin; run < end; ++run) {
+            for (const Run::Lit& lit : runs[run].lit) {
+                lamp.turn(runs[run].planes, lit.ray);
+            }
+        }
+    });
     ClipPlanes before;
-    for (ClipPlanes& at : planes) {
-        const ClipPlanes turned = std::exchange(at, before);
+    for (Run& run : runs) {
+        const ClipPlanes turned = std::exchange(run.planes, before);
         before.then(turned);
     }
-    return planes;
 }
 
 template <typename Light>
-void inject_run(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
-                ClipPlanes planes, size_t run, std::span<int32_t> leaf_energies) {
-    const std::span<const Leaf> leaves = run_of_leaves(layout, run);
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        const std::optional<Ray> ray = light.ray_to(leaves[i]);
-        if (!ray) {
-            continue;
-        }
-        light.turn(planes, *ray);
-        const glm::ivec3 energy = reflected(light_color, ray->attenuation, leaves[i].albedo);
+void inject_run(const CellLayout& layout, const Light& light, const glm::ivec3& light_color, const Run& run,
+                std::span<int32_t> leaf_energies) {
+    ClipPlanes planes = run.planes;
+    for (const Run::Lit& lit : run.lit) {
+        const Leaf& leaf = layout.leaves[lit.leaf];
+        light.turn(planes, lit.ray);
+        const glm::ivec3 energy = reflected(light_color, lit.ray.attenuation, leaf.albedo);
         if (energy == glm::ivec3(0) ||
-            !reaches(layout.leaf_bitmap, light.march(*ray, planes), glm::ivec3(leaves[i].voxel))) {
+            !reaches(layout.leaf_bitmap, light.march(lit.ray, planes), glm::ivec3(leaf.voxel))) {
             continue;
         }
         for (size_t c = 0; c < 3; ++c) {
-            leaf_energies[(run * kRun + i) * 3 + c] += energy[int(c)];
+            leaf_energies[size_t(lit.leaf) * 3 + c] += energy[int(c)];
         }
     }
 }
@@ -222,11 +235,11 @@ void inject_run(const CellLayout& layout, const Light& light, const glm::ivec3& 
 template <typename Light>
 void inject(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
             std::span<int32_t> leaf_energies) {
-    const size_t runs = (layout.leaves.size() + kRun - 1) / kRun;
-    const std::vector<ClipPlanes> planes = planes_at_runs(layout, light, runs);
-    parallel_for(runs, 1, [&](size_t begin, size_t end) {
+    std::vector<Run> runs = aim(layout, light);
+    set_planes(light, runs);
+    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
         for (size_t run = begin; run < end; ++run) {
-            inject_run(layout, light, light_color, planes[run], run, leaf_energies);
+            inject_run(layout, light, light_color, runs[run], leaf_energies);
         }
     });
 }

@@ -41,12 +41,18 @@ float remainder_of(float a, float b) noexcept {
 bool reaches(const LeafBitmap& leaves, const March& march, const glm::ivec3& target) noexcept {
     float4 at = lanes(march.from);
     const float4 step = lanes(march.direction * march.step);
-    for (float distance = march.distance; distance > -march.step; distance -= march.step) {
+    float distance = march.distance;
+    while (distance > -march.step) {
         const int4 cell = floored(at);
-        if (leaves.contains(cell[0], cell[1], cell[2])) {
+        const LeafBitmap::Found found = leaves.look(cell[0], cell[1], cell[2]);
+        if (found.leaf) {
             return cell[0] == target.x && cell[1] == target.y && cell[2] == target.z;
         }
-        at += step;
+        // Free steps are still taken one by one: the sum of their roundings decides where the ray arrives.
+        for (uint32_t i = 0; i <= found.free_steps && distance > -march.step; ++i) {
+            at += step;
+            distance -= march.step;
+        }
     }
     return false;
 }

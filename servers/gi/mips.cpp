@@ -5,6 +5,8 @@
 #include "core/threads.h"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 namespace cl::gi {
 
@@ -25,19 +27,25 @@ bool has_shape_of(const std::vector<MipLevel>& levels, const glm::ivec3& dims) {
     return levels.size() == size_t(mip_count(dims)) && levels[0].size == dims;
 }
 
-uint8_t encoded(Energy energy, uint32_t dynamic_range) {
-    return uint8_t(std::min((energy / dynamic_range) >> 2, 255u));
+/// energy / dynamic range / 4, for every energy. A table: dividing takes longer than all else here.
+std::vector<uint8_t> texel_bytes(int dynamic_range) {
+    std::vector<uint8_t> bytes(size_t(std::numeric_limits<Energy>::max()) + 1);
+    const uint32_t range = uint32_t(std::max(dynamic_range, 1));
+    for (uint32_t energy = 0; energy < bytes.size(); ++energy) {
+        bytes[energy] = uint8_t(std::min((energy / range) >> 2, 255u));
+    }
+    return bytes;
 }
 
-void encode_cell(const CellLayout& layout, const CellEnergies& energies, uint32_t index,
-                 uint32_t dynamic_range, MipLevel& level) {
+void encode_cell(const CellLayout& layout, const CellEnergies& energies, size_t index,
+                 std::span<const uint8_t> bytes, MipLevel& level) {
     const glm::u16vec3 voxel = layout.voxels[index];
     const size_t texel = (size_t(voxel.z) * size_t(level.size.y) + voxel.y) * size_t(level.size.x) + voxel.x;
     uint8_t* rgba = level.rgba8.data() + texel * 4;
     for (size_t c = 0; c < 3; ++c) {
-        rgba[c] = encoded(energies.rgb[size_t(index) * 3 + c], dynamic_range);
+        rgba[c] = bytes[energies.rgb[index * 3 + c]];
     }
-    rgba[3] = uint8_t((layout.cells[index].level_alpha & 0xFFFFu) >> 8);
+    rgba[3] = layout.opacity[index];
 }
 
 } // namespace
@@ -52,17 +60,18 @@ int mip_count(const glm::ivec3& dims) noexcept {
 
 void encode_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
                  std::vector<MipLevel>& levels) {
-    CL_ASSERT(energies.rgb.size() == layout.cells.size() * 3, "three energies a cell");
+    CL_ASSERT(energies.rgb.size() == layout.cell_count() * 3, "three energies a cell");
     if (!has_shape_of(levels, layout.dims)) {
         levels = empty_levels(layout.dims);
     }
     constexpr size_t kGrain = 4096;
-    const uint32_t range = uint32_t(std::max(dynamic_range, 1));
+    const std::vector<uint8_t> bytes = texel_bytes(dynamic_range);
     for (size_t m = 0; m < levels.size(); ++m) {
-        const std::vector<uint32_t>& cells = layout.cells_of_level[size_t(layout.levels) - 1 - m];
-        parallel_for(cells.size(), kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                encode_cell(layout, energies, cells[i], range, levels[m]);
+        const size_t level = size_t(layout.levels) - 1 - m;
+        const size_t first = layout.level_begin[level];
+        parallel_for(layout.level_begin[level + 1] - first, kGrain, [&](size_t begin, size_t end) {
+            for (size_t i = first + begin; i < first + end; ++i) {
+                encode_cell(layout, energies, i, bytes, levels[m]);
             }
         });
     }

@@ -4,6 +4,7 @@
 #include "servers/gi/probe_data.h"
 #include "servers/render_types.h"
 
+#include <glm/common.hpp>
 #include <glm/ext/vector_uint3_sized.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,29 +33,34 @@ struct CachedLight {
 
 using Energy = uint16_t; ///< 1024 = radiance 1.0
 
-/// The octree laid out for relighting: leaves in slot order (Morton-like), cells level by level.
-/// Structure only; energies are kept by the caller.
+/// The octree laid out for relighting: its cells level by level from the root, each level in slot order
+/// (Morton-like), so that every pass reads memory from one end to the other. Structure only; energies are
+/// kept by the caller.
 struct CellLayout {
     int levels = 0;
     glm::ivec3 dims{0};
     struct Leaf {
-        uint32_t cell = 0;
         glm::u16vec3 voxel{0};
         glm::u8vec3 albedo{0};
         glm::vec3 normal{0.0f}; ///< byte / 255 * 2 - 1, not renormalised
+        uint32_t emission = 0;  ///< Cell::emission
     };
-    std::vector<Leaf> leaves;
-    std::vector<Cell> cells;                           ///< copy of the octree's
-    std::vector<glm::u16vec3> voxels;                  ///< per cell, at its own level
-    std::vector<std::vector<uint32_t>> cells_of_level; ///< [level], in slot order; the last holds the leaves
+    std::vector<Leaf> leaves;          ///< the cells of the last level
+    std::vector<uint32_t> level_begin; ///< first cell of each level, and the number of cells
+    std::vector<glm::u16vec3> voxels;  ///< per cell, at its own level
+    std::vector<uint8_t> opacity;      ///< per cell
+    /// Per cell above the leaves, and the end: its children are [first_child[i], first_child[i + 1]).
+    std::vector<uint32_t> first_child;
     LeafBitmap leaf_bitmap;
+
+    [[nodiscard]] size_t cell_count() const noexcept { return voxels.size(); }
 };
 /// Spec gi-update section 3, step 2. @param octree  as decode_octree() and voxelize() return them.
 [[nodiscard]] CellLayout make_layout(const Octree& octree);
 
 /// Energies of all cells.
 struct CellEnergies {
-    std::vector<Energy> rgb; ///< 3 * cell count, in the order of layout.cells
+    std::vector<Energy> rgb; ///< 3 * cell count, in the order of the layout
 };
 
 /// Emission as energy of each leaf [3 per leaf]: where the sums of inject_light() start (section 3, step 2).

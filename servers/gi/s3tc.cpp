@@ -117,17 +117,20 @@ glm::ivec3 unpacked565(uint32_t code) {
 /// The cells of one level by the block that they lie in, each block's in the level's order.
 class BlockTable {
 public:
-    BlockTable(const CellLayout& layout, const std::vector<uint32_t>& cells, const glm::ivec3& size)
+    /// @param level  of the tree
+    BlockTable(const CellLayout& layout, size_t level, const glm::ivec3& size)
         : blocks_x_(size_t(size.x) / 4), blocks_y_(size_t(size.y) / 4),
-          begins_(blocks_x_ * blocks_y_ * size_t(size.z) + 1, 0), cells_(cells.size()) {
-        for (const uint32_t cell : cells) {
+          begins_(blocks_x_ * blocks_y_ * size_t(size.z) + 1, 0),
+          cells_(layout.level_begin[level + 1] - layout.level_begin[level]) {
+        const uint32_t first = layout.level_begin[level], end = layout.level_begin[level + 1];
+        for (uint32_t cell = first; cell < end; ++cell) {
             ++begins_[block_of(layout.voxels[cell]) + 1];
         }
         for (size_t i = 1; i < begins_.size(); ++i) {
             begins_[i] += begins_[i - 1];
         }
         std::vector<uint32_t> next(begins_.begin(), begins_.end() - 1);
-        for (const uint32_t cell : cells) {
+        for (uint32_t cell = first; cell < end; ++cell) {
             cells_[next[block_of(layout.voxels[cell])]++] = cell;
         }
     }
@@ -156,8 +159,7 @@ BlockTexel texel_of(const CellLayout& layout, const CellEnergies& energies, uint
     const Energy* e = energies.rgb.data() + size_t(cell) * 3;
     const glm::u16vec3 voxel = layout.voxels[cell];
     return {int(voxel.y % 4u) * 4 + int(voxel.x % 4u),
-            glm::vec3(float(e[0]), float(e[1]), float(e[2])) / range / 1024.0f,
-            uint8_t((layout.cells[cell].level_alpha & 0xFFFFu) >> 8)};
+            glm::vec3(float(e[0]), float(e[1]), float(e[2])) / range / 1024.0f, layout.opacity[cell]};
 }
 
 void write_block(const std::array<uint8_t, 64>& texels, const glm::ivec3& origin, MipLevel& level) {
@@ -169,10 +171,10 @@ void write_block(const std::array<uint8_t, 64>& texels, const glm::ivec3& origin
     }
 }
 
-void encode_level(const CellLayout& layout, const CellEnergies& energies, const std::vector<uint32_t>& cells,
-                  float range, MipLevel& level) {
+void encode_level(const CellLayout& layout, const CellEnergies& energies, size_t tree_level, float range,
+                  MipLevel& level) {
     constexpr size_t kGrain = 512;
-    const BlockTable table(layout, cells, level.size);
+    const BlockTable table(layout, tree_level, level.size);
     parallel_for(table.count(), kGrain, [&](size_t begin, size_t end) {
         std::vector<BlockTexel> texels;
         for (size_t block = begin; block < end; ++block) {
@@ -234,7 +236,7 @@ int block_mip_count(const glm::ivec3& dims) noexcept {
 
 void encode_block_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
                        std::vector<MipLevel>& levels) {
-    CL_ASSERT(energies.rgb.size() == layout.cells.size() * 3, "three energies a cell");
+    CL_ASSERT(energies.rgb.size() == layout.cell_count() * 3, "three energies a cell");
     levels.resize(size_t(block_mip_count(layout.dims)));
     CL_ASSERT(!levels.empty(), "expected at least 4 texels on each side");
     const float range = float(std::max(dynamic_range, 1));
@@ -243,8 +245,7 @@ void encode_block_mips(const CellLayout& layout, const CellEnergies& energies, i
         levels[m].size = size;
         levels[m].rgba8.resize(size_t(size.x) * size_t(size.y) * size_t(size.z) *
                                4); // the same blocks each time
-        encode_level(layout, energies, layout.cells_of_level[size_t(layout.levels) - 1 - m], range,
-                     levels[m]);
+        encode_level(layout, energies, size_t(layout.levels) - 1 - m, range, levels[m]);
     }
 }
 

@@ -21,12 +21,11 @@ std::vector<bool> changed_mips(const RelightCells& relit, const gi::CellEnergies
         return changed;
     }
     for (size_t mip = 0; mip < changed.size(); ++mip) {
-        const std::vector<uint32_t>& cells =
-            layout.cells_of_level[static_cast<size_t>(layout.levels) - 1 - mip];
-        changed[mip] = std::any_of(cells.begin(), cells.end(), [&before, &now](uint32_t cell) {
-            const auto at = static_cast<std::ptrdiff_t>(3 * size_t{cell});
-            return !std::equal(now.rgb.begin() + at, now.rgb.begin() + at + 3, before.rgb.begin() + at);
-        });
+        const size_t level = static_cast<size_t>(layout.levels) - 1 - mip;
+        const auto first = static_cast<std::ptrdiff_t>(3 * size_t{layout.level_begin[level]});
+        const auto end = static_cast<std::ptrdiff_t>(3 * size_t{layout.level_begin[level + 1]});
+        changed[mip] =
+            !std::equal(now.rgb.begin() + first, now.rgb.begin() + end, before.rgb.begin() + first);
     }
     return changed;
 }

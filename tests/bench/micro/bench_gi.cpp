@@ -66,16 +66,16 @@ void inject_light(benchmark::State& state) {
 }
 BENCHMARK(inject_light)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A cell's children are read, their energies, and its own energy is written.
+/// The energies of a cell's children are read, and its own is written.
 void downsample(benchmark::State& state) {
     Cells& cells = cells_of(int(state.range(0)));
     for (auto _ : state) {
         static_cast<void>(_);
         gi::energies_from_leaves(cells.layout, cells.leaf_energies, 0.7f, cells.energies);
     }
-    const size_t count = cells.layout.cells.size(), leaves = cells.layout.leaves.size();
-    report_bytes(state, leaves * (3 * sizeof(int32_t) + sizeof(gi::CellLayout::Leaf)) +
-                            (count - leaves) * (sizeof(gi::Cell) + 4) + count * 2 * 3 * sizeof(gi::Energy));
+    const size_t count = cells.layout.cell_count(), leaves = cells.layout.leaves.size();
+    report_bytes(state, leaves * 3 * sizeof(int32_t) + (count - leaves) * sizeof(uint32_t) +
+                            count * 2 * 3 * sizeof(gi::Energy));
 }
 BENCHMARK(downsample)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -88,8 +88,8 @@ void encode_mips(benchmark::State& state) {
         static_cast<void>(_);
         gi::encode_mips(cells.layout, cells.energies, 4, levels);
     }
-    report_bytes(state, cells.layout.cells.size() * (sizeof(gi::Cell) + sizeof(glm::u16vec3) +
-                                                     3 * sizeof(gi::Energy) + sizeof(uint32_t) + 4));
+    report_bytes(state, cells.layout.cell_count() *
+                            (sizeof(uint8_t) + sizeof(glm::u16vec3) + 3 * sizeof(gi::Energy) + 4));
 }
 BENCHMARK(encode_mips)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -34,13 +34,17 @@ TEST_SUITE("servers/gi/cell_layout") {
         CHECK(layout.leaves[1].normal.y == 1.0f);
         CHECK(layout.leaves[1].normal.x == doctest::Approx(-1.0 / 255.0));
         for (int level = 0; level < 7; ++level) {
-            for (const uint32_t cell : layout.cells_of_level[size_t(level)]) {
-                CHECK((layout.cells[cell].level_alpha >> 16) == uint32_t(level));
+            for (uint32_t cell = layout.level_begin[size_t(level)];
+                 cell < layout.level_begin[size_t(level) + 1]; ++cell) {
                 CHECK(int(layout.voxels[cell].x) < (1 << level));
+                for (uint32_t child = layout.first_child[level < 6 ? cell : 0];
+                     level < 6 && child < layout.first_child[cell + 1]; ++child) {
+                    CHECK(layout.voxels[child] / uint16_t(2) == layout.voxels[cell]);
+                }
             }
         }
-        CHECK(layout.leaf_bitmap.contains(63, 63, 63));
-        CHECK_FALSE(layout.leaf_bitmap.contains(0, 0, 0));
+        CHECK(layout.leaf_bitmap.look(63, 63, 63).leaf);
+        CHECK_FALSE(layout.leaf_bitmap.look(0, 0, 0).leaf);
     }
 }
 

@@ -26,7 +26,7 @@ TEST_SUITE("servers/gi/downsample") {
         gi::CellEnergies energies;
 
         int red_of_level(int level) const {
-            return energies.rgb[size_t(layout.cells_of_level[size_t(level)][0]) * 3];
+            return energies.rgb[size_t(layout.level_begin[size_t(level)]) * 3];
         }
     };
 
@@ -57,7 +57,7 @@ TEST_SUITE("servers/gi/downsample") {
     TEST_CASE("sums clamp to what an energy can hold, where Godot wraps") {
         Pair p;
         gi::energies_from_leaves(p.layout, Sums{70000, -5, 65535, 1 << 24, 0, 0}, 1.0f, p.energies);
-        const size_t leaf = size_t(p.layout.leaves[0].cell) * 3;
+        const size_t leaf = size_t(p.layout.level_begin[6]) * 3;
         CHECK(p.energies.rgb[leaf] == 65535);
         CHECK(p.energies.rgb[leaf + 1] == 0);
         CHECK(p.energies.rgb[leaf + 2] == 65535);
@@ -81,7 +81,7 @@ TEST_SUITE("servers/gi/downsample") {
         set_thread_count(1);
         gi::energies_from_leaves(layout, sums, 0.7f, one);
         gi::CellEnergies four;
-        four.rgb.assign(layout.cells.size() * 3, 12345);
+        four.rgb.assign(layout.cell_count() * 3, 12345);
         set_thread_count(4);
         gi::energies_from_leaves(layout, sums, 0.7f, four);
         set_thread_count(0);

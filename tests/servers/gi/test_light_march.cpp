@@ -51,6 +51,31 @@ TEST_SUITE("servers/gi/light_march") {
         CHECK_FALSE(gi::reaches(leaves, too_short, {20, 5, 5}));
     }
 
+    TEST_CASE("free steps never pass a leaf, and save most looks in an empty room") {
+        const glm::ivec3 dims(64, 32, 48);
+        std::mt19937 random(3);
+        for (int leaf_count : {0, 1, 3, 40}) {
+            gi::LeafBitmap leaves(dims);
+            std::vector<glm::ivec3> added;
+            for (int i = 0; i < leaf_count; ++i) {
+                added.emplace_back(random() % 64, random() % 32, random() % 48);
+                leaves.add(uint32_t(added.back().x), uint32_t(added.back().y), uint32_t(added.back().z));
+            }
+            leaves.measure_free_space();
+            uint32_t most = 0;
+            for (int i = 0; i < 2000; ++i) {
+                const glm::ivec3 at(random() % 64, random() % 32, random() % 48);
+                const uint32_t steps = leaves.look(at.x, at.y, at.z).free_steps;
+                most = std::max(most, steps);
+                for (const glm::ivec3& leaf : added) {
+                    const glm::ivec3 apart = glm::abs(leaf - at);
+                    CHECK(std::max(apart.x, std::max(apart.y, apart.z)) > int(steps));
+                }
+            }
+            CHECK(most >= (leaf_count < 4 ? 20u : 3u));
+        }
+    }
+
     TEST_CASE("the bitmap holds what was added, and nothing outside the grid") {
         const glm::ivec3 dims(8, 2, 16);
         gi::LeafBitmap leaves(dims);
@@ -66,7 +91,7 @@ TEST_SUITE("servers/gi/light_march") {
             for (int y = -2; y < 5; ++y) {
                 for (int x = -2; x < 11; ++x) {
                     const bool inside = x >= 0 && x < 8 && y >= 0 && y < 2 && z >= 0 && z < 16;
-                    CHECK(leaves.contains(x, y, z) == (inside && expected[size_t((z * 2 + y) * 8 + x)]));
+                    CHECK(leaves.look(x, y, z).leaf == (inside && expected[size_t((z * 2 + y) * 8 + x)]));
                 }
             }
         }

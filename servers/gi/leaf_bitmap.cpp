@@ -1,0 +1,47 @@
+#include "servers/gi/leaf_bitmap.h"
+
+#include <algorithm>
+
+namespace cl::gi {
+
+void LeafBitmap::measure_free_space() {
+    // Chebyshev distance in bricks to the nearest brick with leaves, by one sweep there and one back
+    // (Rosenfeld and Pfaltz 1966). Outside of the grid nothing is met.
+    constexpr int kFar = 62; // so that steps fit a byte
+    const glm::ivec3 n(int(words_x_), words_x_ > 0 ? int(words_xy_ / words_x_) : 0,
+                       words_xy_ > 0 ? int(words_.size() / words_xy_) : 0);
+    std::vector<uint8_t> away(words_.size());
+    std::transform(words_.begin(), words_.end(), away.begin(),
+                   [](uint64_t leaves) { return uint8_t(leaves == 0 ? kFar : 0); });
+    const auto number = [&](const glm::ivec3& b) {
+        return (size_t(b.z) * size_t(n.y) + size_t(b.y)) * size_t(n.x) + size_t(b.x);
+    };
+    const auto is_inside = [&](const glm::ivec3& b) {
+        return uint32_t(b.x) < uint32_t(n.x) && uint32_t(b.y) < uint32_t(n.y) &&
+               uint32_t(b.z) < uint32_t(n.z);
+    };
+    /// Takes what the 13 neighbours before (sign -1) or after (+1) a brick in memory offer.
+    const auto relax = [&](const glm::ivec3& at, int sign) {
+        uint8_t& own = away[number(at)];
+        for (int i = 0; i < 13 && own > 0; ++i) {
+            const glm::ivec3 next = at - sign * (glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+            if (is_inside(next)) {
+                own = std::min(own, uint8_t(away[number(next)] + 1));
+            }
+        }
+    };
+    for (size_t i = 0; i < away.size(); ++i) {
+        const size_t x = i % size_t(n.x), y = i / size_t(n.x) % size_t(n.y), z = i / words_xy_;
+        relax({int(x), int(y), int(z)}, -1);
+    }
+    for (size_t i = away.size(); i-- > 0;) {
+        const size_t x = i % size_t(n.x), y = i / size_t(n.x) % size_t(n.y), z = i / words_xy_;
+        relax({int(x), int(y), int(z)}, 1);
+    }
+    // From anywhere in a brick d bricks away the next leaf is more than 4 (d - 1) cells off. One less, as
+    // rounding may make steps a hair longer than a cell.
+    std::transform(away.begin(), away.end(), free_.begin(),
+                   [](uint8_t d) { return uint8_t(d > 1 ? 4 * (d - 1) - 1 : 0); });
+}
+
+} // namespace cl::gi
