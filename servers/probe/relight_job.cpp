@@ -39,7 +39,7 @@ void carry_out(RelightCells& cells, const RelightOrder& order) {
         if (cells.abandoned) {
             return;
         }
-        gi::inject_light(layout, edit.light, edit.sign, cells.leaf_sums);
+        cells.lights.inject(layout, edit.light, edit.sign, cells.leaf_sums);
     }
     gi::CellEnergies energies;
     gi::energies_from_leaves(layout, cells.leaf_sums, order.propagation, energies);

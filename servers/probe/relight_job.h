@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/gi/light_memory.h"
 #include "servers/gi/relight.h"
 #include "servers/probe/probe_light.h"
 
@@ -31,6 +32,7 @@ struct RelightCells {
     std::shared_ptr<const gi::CellLayout> layout;
     gi::TexelCoding coding;
     std::vector<int32_t> leaf_sums; ///< emission and all lights put in so far; empty before the first order
+    gi::LightMemory lights;         ///< what some of them put in
     gi::CellEnergies energies;      ///< of the texels in `mips`
     std::vector<gi::MipLevel> mips;
     std::vector<bool> mip_changed; ///< by the last order: these differ, or may differ, from before
