@@ -24,6 +24,12 @@ constexpr float kGoesOnFacing = 0.5f; ///< cosine between surfaces that are take
 constexpr float kCrack_cells = 0.2f;  ///< a space as narrow as this is not looked into
 constexpr float kMaxRadiance = 65408.0f;
 
+void write_half(const glm::vec3& color, uint16_t* out) noexcept {
+    for (int channel = 0; channel < 3; ++channel) {
+        out[channel] = glm::packHalf1x16(glm::clamp(color[channel], -kMaxRadiance, kMaxRadiance));
+    }
+}
+
 glm::vec3 facing_axis(const CellGrid& grid, int facing) noexcept {
     const glm::vec3 axis = glm::normalize(grid.world_from_cells.basis[facing / 2]);
     return facing % 2 == 0 ? axis : -axis;
@@ -207,23 +213,24 @@ std::vector<uint16_t> encode_air(const Transport& transport, const FieldMap& map
     std::vector<uint16_t> out(size_t(map.air.x) * size_t(map.air.y) * size_t(map.air.z) * 4);
     for (size_t p = 0; p < map.probes.size(); ++p) {
         const glm::ivec3 dims = map.probes[p].bricks;
-        for (size_t i = 0; i < solution.air[p].size(); ++i) {
-            const int n = int(i), x = n % dims.x, y = n / dims.x % dims.y, z = n / (dims.x * dims.y);
-            const Solution::Air& air = solution.air[p][i];
-            for (int slab = 0; slab < 4; ++slab) {
-                const int at_z = map.probes[p].air_z + slab * dims.z + z;
-                const size_t texel =
-                    (size_t(at_z) * size_t(map.air.y) + size_t(y)) * size_t(map.air.x) + size_t(x);
-                const glm::vec3 v = slab == 0 ? air.mean : air.slope[size_t(slab - 1)];
-                for (int channel = 0; channel < 3; ++channel) {
-                    out[texel * 4 + size_t(channel)] =
-                        glm::packHalf1x16(glm::clamp(v[channel], -kMaxRadiance, kMaxRadiance));
-                }
-                if (slab > 0) {
-                    out[texel * 4 + 3] = glm::packHalf1x16(packed_reach(transport.air[p].reach[i], slab - 1));
+        const auto texel_of = [&](int n, int slab) {
+            const int x = n % dims.x, y = n / dims.x % dims.y, z = n / (dims.x * dims.y);
+            const int at_z = map.probes[p].air_z + slab * dims.z + z;
+            return out.data() +
+                   4 * ((size_t(at_z) * size_t(map.air.y) + size_t(y)) * size_t(map.air.x) + size_t(x));
+        };
+        constexpr size_t kGrain = 1024;
+        parallel_for(solution.air[p].size(), kGrain, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                const Solution::Air& air = solution.air[p][i];
+                write_half(air.mean, texel_of(int(i), 0));
+                for (int axis = 0; axis < 3; ++axis) {
+                    uint16_t* texel = texel_of(int(i), 1 + axis);
+                    write_half(air.slope[size_t(axis)], texel);
+                    texel[3] = glm::packHalf1x16(packed_reach(transport.air[p].reach[i], axis));
                 }
             }
-        }
+        });
     }
     return out;
 }
