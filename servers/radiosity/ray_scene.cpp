@@ -207,4 +207,21 @@ bool RayScene::is_blocked(const Ray& ray) const noexcept {
     return r.tfar == -INFINITY; // Embree's sign for a hit
 }
 
+void RayScene::find_blocked(std::span<const Ray> rays, std::span<uint8_t> blocked) const noexcept {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    std::array<RTCRay, kBatch> batch;
+    for (size_t begin = 0; begin < rays.size(); begin += kBatch) {
+        const size_t count = std::min(kBatch, rays.size() - begin);
+        for (size_t i = 0; i < count; ++i) {
+            fill(batch[i], rays[begin + i]);
+        }
+        rtcOccluded1M(impl_->bvh, &context, batch.data(), unsigned(count), sizeof(RTCRay));
+        for (size_t i = 0; i < count; ++i) {
+            blocked[begin + i] = batch[i].tfar == -INFINITY;
+        }
+    }
+}
+
 } // namespace cl::radiosity

@@ -52,6 +52,10 @@ public:
         return is_blocked({from, to - from, 1.0f});
     }
 
+    /// is_blocked() of each of many rays that start near each other and go to one place, faster.
+    /// blocked.size() == rays.size()
+    void find_blocked(std::span<const Ray> rays, std::span<uint8_t> blocked) const noexcept;
+
     struct Impl;
 
 private:

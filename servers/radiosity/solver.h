@@ -55,9 +55,8 @@ struct Solution {
     int bounces = 0;
 };
 
-/// Light from the sources alone that arrives at a point of a surface, shadows by rays.
-[[nodiscard]] glm::vec3 direct_light(const Source& source, const RayScene& rays, const glm::vec3& position,
-                                     const glm::vec3& normal, float lift_m) noexcept;
+/// Light straight from a source at each patch, shadows by rays.
+[[nodiscard]] std::vector<glm::vec3> direct_light(const Transport& transport, const Source& source);
 
 /// Light of each source at each patch, kept so that a change of one light costs the rays of one. For one
 /// transport.

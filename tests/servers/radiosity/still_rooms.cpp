@@ -246,10 +246,10 @@ float mean_over(const Patches& patches, std::span<const glm::vec3> values,
 
 std::vector<glm::vec3> received(const Transport& t, const Lighting& lighting, const Solution& solution) {
     std::vector<glm::vec3> out = solution.arriving;
-    for (uint32_t p = 0; p < t.patches.size(); ++p) {
-        const float lift_m = kLift * t.patches.grids[t.patches.grid[p]].cells.cell_m;
-        for (const Source& s : lighting.sources) {
-            out[p] += direct_light(s, t.rays, t.patches.position[p], t.patches.normal[p], lift_m);
+    for (const Source& s : lighting.sources) {
+        const std::vector<glm::vec3> direct = direct_light(t, s);
+        for (size_t p = 0; p < out.size(); ++p) {
+            out[p] += direct[p];
         }
     }
     return out;
