@@ -51,6 +51,10 @@ def main():
     entries = {e["file"]: e for e in json.loads((ROOT / "compile_commands.json").read_text())
                if not e["file"].startswith(("build/", "tests/"))}
     wanted = sys.argv[1:] or sorted(entries)
+    unknown = [n for n in wanted if n not in entries]
+    if unknown:
+        print(f"lint: expected source files of the layers or of demo, found {', '.join(unknown)}")
+        return 1
     config = (ROOT / ".clang-tidy").read_bytes()
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -1,5 +1,7 @@
 #include "drivers/embree/environment.h"
 
+#include "servers/shading/background.h"
+
 #include "core/math/transform.h"
 
 #include <glm/common.hpp>
@@ -9,16 +11,6 @@ namespace cl::embree {
 
 namespace {
 
-/// The background's colour, linear: clear colour or background colour, else black.
-glm::vec3 background_color(const Frame& frame) noexcept {
-    if (!frame.has_environment || frame.environment.background_mode == BackgroundMode::ClearColor) {
-        return linear_from_srgb(frame.clear_color.rgb());
-    }
-    const BackgroundMode mode = frame.environment.background_mode;
-    const bool is_color = mode == BackgroundMode::Color || mode == BackgroundMode::ColorSky;
-    return is_color ? linear_from_srgb(frame.environment.background_color.rgb()) : glm::vec3(0.0f);
-}
-
 bool lights_by_sky(const Frame& frame) noexcept {
     const BackgroundMode mode = frame.environment.background_mode;
     return frame.has_environment && (mode == BackgroundMode::Sky || mode == BackgroundMode::ColorSky);
@@ -27,7 +19,7 @@ bool lights_by_sky(const Frame& frame) noexcept {
 } // namespace
 
 Environment::Environment(const Frame& frame, const SkyPanorama* sky)
-    : background_(background_color(frame)), ambient_(background_), reflected_(background_) {
+    : background_(shading::background_color(frame)), ambient_(background_), reflected_(background_) {
     if (!frame.has_environment) {
         return;
     }

@@ -1,5 +1,7 @@
 #include "drivers/gles3/frame_block.h"
 
+#include "servers/shading/background.h"
+
 #include "core/assert.h"
 
 #include <glm/geometric.hpp>
@@ -28,7 +30,7 @@ void set_environment(FrameBlock& block, const Frame& frame) noexcept {
     const EnvironmentDesc& e = frame.environment;
     block.frame_ambient_color = linear_from_srgb(e.ambient_color.rgb());
     block.frame_ambient_energy = e.ambient_energy;
-    block.frame_environment = background_color(frame) * e.background_energy;
+    block.frame_environment = shading::background_color(frame) * e.background_energy;
     block.frame_background_energy = e.background_energy;
     block.frame_sky_contribution = e.ambient_sky_contribution;
 }
@@ -155,15 +157,6 @@ FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept {
 glm::vec3 light_color(const LightDesc& light) noexcept {
     const float sign = light.negative ? -1.0f : 1.0f;
     return linear_from_srgb(light.color.rgb()) * (light.energy * kPi * sign);
-}
-
-glm::vec3 background_color(const Frame& frame) noexcept {
-    if (!frame.has_environment || frame.environment.background_mode == BackgroundMode::ClearColor) {
-        return linear_from_srgb(frame.clear_color.rgb());
-    }
-    const BackgroundMode mode = frame.environment.background_mode;
-    const bool is_color = mode == BackgroundMode::Color || mode == BackgroundMode::ColorSky;
-    return is_color ? linear_from_srgb(frame.environment.background_color.rgb()) : glm::vec3(0.0f);
 }
 
 shaders::FrameBlock make_frame_block(const Frame& frame,

@@ -36,7 +36,4 @@ struct PlacedDirectionalShadow {
 /// radiance 1.
 [[nodiscard]] glm::vec3 light_color(const LightDesc& light) noexcept;
 
-/// The background's colour, linear: clear colour or background colour, else black.
-[[nodiscard]] glm::vec3 background_color(const Frame& frame) noexcept;
-
 } // namespace cl::gles3

@@ -1,5 +1,7 @@
 #include "drivers/gles3/passes/scene_pass.h"
 
+#include "servers/shading/background.h"
+
 #include <utility>
 
 namespace cl::gles3 {
@@ -91,7 +93,7 @@ Status ScenePass::draw_opaque(const RenderTarget& target, const Inputs& inputs, 
     gl::Pass pass({.label = "opaque",
                    .target = &target.scene,
                    .colors = {keeps ? gl::Load::Keep : gl::Load::Clear},
-                   .clear_colors = {glm::vec4(background_color(frame), 1.0f)},
+                   .clear_colors = {glm::vec4(shading::background_color(frame), 1.0f)},
                    .depth = prepass == Prepass::Done ? gl::Load::Keep : gl::Load::Clear});
     bind_frame_inputs(inputs);
     // Blended surfaces with an opaque prepass come last, over all that is solid.
