@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace cl::radiosity {
 namespace {
@@ -39,6 +40,24 @@ Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float c
     return outlook;
 }
 
+/// The harmonic mean of what some rays meet, if all of it shows its front.
+std::optional<float> open_on_all_sides(const RayScene& rays, std::span<const Ray> asked) noexcept {
+    std::array<Hit, 8> hits;
+    const std::span<Hit> met = std::span(hits).first(asked.size());
+    rays.trace(asked, met);
+    float inverse_sum = 0.0f;
+    for (const Hit& hit : met) {
+        if (hit.triangle == kMiss) {
+            continue;
+        }
+        if (!hit.is_front) {
+            return std::nullopt;
+        }
+        inverse_sum += 1.0f / std::max(hit.t, 1e-6f);
+    }
+    return inverse_sum > 0.0f ? float(asked.size()) / inverse_sum : 1e30f;
+}
+
 } // namespace
 
 glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) noexcept {
@@ -53,9 +72,8 @@ float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& no
         const glm::vec2 u = i == 0 ? glm::vec2(0.0f) : glm::vec2(0.64f, 0.25f * float(i) - 0.125f);
         few[i] = {origin, frame.direction(u)};
     }
-    const Outlook first = look(rays, few, cell_m);
-    if (first.backs + first.unclear == 0) {
-        return first.openness_m;
+    if (const std::optional<float> open_m = open_on_all_sides(rays, few)) {
+        return *open_m;
     }
     // A few rays settle it where none meets a back; more are asked otherwise, and those that meet faces of
     // two solids that touch do not count.
