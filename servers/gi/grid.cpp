@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace cl::gi {
 
 namespace {
@@ -58,6 +60,21 @@ Transform make_cells_from_local(const glm::vec3& position, float longest_m, int 
     return xform;
 }
 
+/// Whether `saved`, which is finite, is `exact` or what six significant digits leave of it.
+bool agrees(float saved, float exact) {
+    constexpr float kHalfUnit = 5.1e-6f; // of the sixth digit at worst, and the rounding of what was read
+    return std::abs(saved - exact) <= kHalfUnit * std::abs(saved);
+}
+
+bool agrees(const glm::vec3& saved, const glm::vec3& exact) {
+    return agrees(saved.x, exact.x) && agrees(saved.y, exact.y) && agrees(saved.z, exact.z);
+}
+
+bool agrees(const Transform& saved, const Transform& exact) {
+    return agrees(saved.basis[0], exact.basis[0]) && agrees(saved.basis[1], exact.basis[1]) &&
+           agrees(saved.basis[2], exact.basis[2]) && agrees(saved.origin, exact.origin);
+}
+
 } // namespace
 
 Expected<Grid> compute_grid(const glm::vec3& extents_m, int subdivision) {
@@ -90,6 +107,17 @@ Expected<Grid> compute_grid(const glm::vec3& extents_m, int subdivision) {
     grid.cubic_box = {-extents_m, glm::vec3(longest_m)};
     grid.cells_from_local = make_cells_from_local(-extents_m, longest_m, subdivision);
     return grid;
+}
+
+GridScale grid_scale(const ProbeData& data, int levels) noexcept {
+    const GridScale saved{data.cell_size_m, data.cells_from_local};
+    const int subdivision = 1 << (levels - 1);
+    const float longest_m = data.bounds.size[longest_axis(data.bounds.size)];
+    const GridScale computed{longest_m / float(subdivision),
+                             make_cells_from_local(data.bounds.position, longest_m, subdivision)};
+    const bool is_same_grid = agrees(saved.cell_size_m, computed.cell_size_m) &&
+                              agrees(saved.cells_from_local, computed.cells_from_local);
+    return is_same_grid ? computed : saved;
 }
 
 } // namespace cl::gi

@@ -42,6 +42,16 @@ struct Grid {
 ///         (beyond, float32 loses the cells), or an axis thinner than half a cell.
 [[nodiscard]] Expected<Grid> compute_grid(const glm::vec3& extents_m, int subdivision);
 
+/// Where the cells of baked data lie.
+struct GridScale {
+    float cell_size_m = 1.0f;
+    Transform cells_from_local;
+};
+/// Those of `data`, with all digits that a bake of its box computes where they agree in the six that Godot's
+/// text keeps: a saved bake then looks as it did before it was saved. The last digit decides whether surfaces
+/// on a face of the box lie inside. @param levels  of the octree, 7 to 10
+[[nodiscard]] GridScale grid_scale(const ProbeData& data, int levels) noexcept;
+
 inline constexpr uint32_t kNoChild = 0xFFFFFFFFu;
 
 /// One octree cell, as stored (section 5.2).

@@ -46,20 +46,22 @@ Status set_probe_data(GIProbe& probe, const gi::ProbeData& data, VersionClock& c
     if (Status numbers = check_numbers(data); !numbers) {
         return numbers;
     }
+    gi::GridScale scale{data.cell_size_m, data.cells_from_local};
     if (!data.dynamic_data.empty()) {
         const Expected<gi::Octree> octree = gi::decode_octree(data.dynamic_data);
         if (!octree) {
             return octree.error();
         }
         probe.layout = std::make_shared<const gi::CellLayout>(gi::make_layout(*octree));
+        scale = gi::grid_scale(data, octree->levels);
     }
     probe.coding = data.compress && probe.layout && gi::block_mip_count(probe.layout->dims) > 0
                        ? gi::TexelCoding::Dxt5
                        : gi::TexelCoding::Plain;
     probe.has_data = true;
     probe.bounds = data.bounds;
-    probe.cells_from_local = data.cells_from_local;
-    probe.bounds_cells = data.bounds.size / data.cell_size_m;
+    probe.cells_from_local = scale.cells_from_local;
+    probe.bounds_cells = data.bounds.size / scale.cell_size_m;
     probe.energy = data.energy;
     probe.bias_cells = data.bias_cells;
     probe.normal_bias_m = data.normal_bias_m;

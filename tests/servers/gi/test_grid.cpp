@@ -1,9 +1,12 @@
 #include "servers/gi/probe_data.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <functional>
 #include <limits>
 #include <random>
+#include <string>
 
 namespace {
 
@@ -12,6 +15,27 @@ using namespace cl;
 std::string error_of(const glm::vec3& extents_m, int subdivision) {
     const Expected<gi::Grid> grid = gi::compute_grid(extents_m, subdivision);
     return grid ? "no error" : grid.error().message;
+}
+
+float six_digits_of(float v) {
+    return std::stof(fmt::format("{:.6g}", v));
+}
+
+glm::vec3 six_digits_of(const glm::vec3& v) {
+    return {six_digits_of(v.x), six_digits_of(v.y), six_digits_of(v.z)};
+}
+
+/// What is left of a bake's numbers in a text resource of Godot's.
+gi::ProbeData six_digits_of(const gi::Grid& grid) {
+    const Transform& t = grid.cells_from_local;
+    gi::ProbeData data;
+    data.bounds = {six_digits_of(grid.box.position), six_digits_of(grid.box.size)};
+    data.cell_size_m = six_digits_of(grid.cell_size_m);
+    data.cells_from_local.origin = six_digits_of(t.origin);
+    for (int i = 0; i < 3; ++i) {
+        data.cells_from_local.basis[i] = six_digits_of(t.basis[i]);
+    }
+    return data;
 }
 
 TEST_SUITE("servers/gi/grid") {
@@ -64,6 +88,40 @@ TEST_SUITE("servers/gi/grid") {
         CHECK(grid->dims == glm::ivec3(256, 128, 64));
         CHECK(grid->cells_from_local.xform(grid->box.position) == glm::vec3(0.0f));
         CHECK(grid->cells_from_local.xform(grid->box.end()) == glm::vec3(256.0f, 128.0f, 64.0f));
+    }
+
+    TEST_CASE("a grid whose numbers were saved with six digits gets the others back") {
+        std::mt19937 random(5);
+        std::uniform_int_distribution<int> centimetres(30, 2000);
+        const auto extent = [&] { return float(centimetres(random)) / 100.0f; };
+        for (int i = 0; i < 200; ++i) {
+            const glm::vec3 extents(extent(), extent(), extent());
+            CAPTURE(extents.x);
+            CAPTURE(extents.y);
+            CAPTURE(extents.z);
+            const Expected<gi::Grid> grid = gi::compute_grid(extents, 256);
+            REQUIRE(grid.has_value());
+            const gi::GridScale scale = gi::grid_scale(six_digits_of(*grid), grid->levels);
+            CHECK(scale.cell_size_m == grid->cell_size_m);
+            CHECK(scale.cells_from_local == grid->cells_from_local);
+        }
+    }
+
+    TEST_CASE("a grid that is not the one of its box stays as it was saved") {
+        const Expected<gi::Grid> grid = gi::compute_grid({4.5f, 1.1f, 1.8f}, 128);
+        REQUIRE(grid.has_value());
+        const auto stays = [&](const std::function<void(gi::ProbeData&)>& change) {
+            gi::ProbeData data = six_digits_of(*grid);
+            change(data);
+            const gi::GridScale scale = gi::grid_scale(data, grid->levels);
+            return scale.cell_size_m == data.cell_size_m && scale.cells_from_local == data.cells_from_local;
+        };
+        CHECK(!stays([](gi::ProbeData&) {}));
+        CHECK(stays([](gi::ProbeData& d) { d.cells_from_local.origin.x += 0.001f; }));
+        CHECK(stays([](gi::ProbeData& d) { d.cells_from_local.basis[1].x = 0.001f; }));
+        CHECK(stays([](gi::ProbeData& d) { d.cell_size_m *= 1.0001f; }));
+        CHECK(stays([](gi::ProbeData& d) { d.bounds.size = glm::vec3(0.0f); }));
+        CHECK(stays([](gi::ProbeData& d) { d.bounds.size = glm::vec3(1e-30f); }));
     }
 
     TEST_CASE("extents that hang Godot or leave an axis without cells are refused") {
