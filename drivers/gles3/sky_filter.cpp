@@ -86,6 +86,19 @@ glm::vec3 blur(const std::vector<LobeSample>& lobe, const glm::vec3& axis, const
     return sum / weights;
 }
 
+/// Godot sums pi cos sin over polar angles of 0, 0.03 .. rad and divides by their number: the last one stops
+/// short of the horizon, so that a uniform sky gives a little less than its radiance.
+float share_of_uniform_sky() {
+    constexpr float kStep = 0.03f; // [rad]
+    float sum = 0.0f;
+    int count = 0;
+    for (; static_cast<float>(count) * kStep < 0.5f * kPi; ++count) {
+        const float theta = static_cast<float>(count) * kStep;
+        sum += std::cos(theta) * std::sin(theta);
+    }
+    return kPi * sum / static_cast<float>(count);
+}
+
 /// A layer's largest width when it is computed, and its samples: the rougher, the fewer texels and the wider
 /// the lobe.
 struct LayerCost {
@@ -139,6 +152,7 @@ ParaboloidMap filter_irradiance(const Panorama& sky) {
             weights += weight;
         }
     }
+    const float scale = share_of_uniform_sky() / weights;
     return fill_map(kIrradianceWidth, [&](const glm::vec3& n) {
         const glm::vec3 x = glm::cross(glm::vec3(0, 1, 0), n); // not normalised, as the header says
         const glm::vec3 y = glm::cross(n, x);
@@ -146,7 +160,7 @@ ParaboloidMap filter_irradiance(const Panorama& sky) {
         for (const LobeSample& s : directions) {
             sum += s.weight * sky.sample(s.direction.x * x + s.direction.y * y + s.direction.z * n, s.lod);
         }
-        return sum / weights;
+        return sum * scale;
     });
 }
 

@@ -30,9 +30,9 @@ struct ParaboloidMap {
 inline constexpr int kSkyLayers = 6;        ///< roughness 0, 0.2 .. 1
 inline constexpr int kIrradianceWidth = 32; ///< [texels]
 
-/// Mean radiance over the hemisphere of each normal, weighted by the cosine; a uniform sky gives its
-/// radiance. Godot's frame around the normal is not normalised: its hemisphere narrows towards the poles.
-/// Kept, for its pictures show it.
+/// Mean radiance over the hemisphere of each normal, weighted by the cosine. Two traits of Godot's are kept,
+/// for its pictures show them: a uniform sky gives 0.988 of its radiance, and the frame around the normal is
+/// not normalised, so that the hemisphere narrows towards the poles.
 [[nodiscard]] ParaboloidMap filter_irradiance(const Panorama& sky);
 
 /// The layers from smooth to rough, all of the given width. Runs on all worker threads.
