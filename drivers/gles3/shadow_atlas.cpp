@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace cl::gles3 {
 
@@ -49,11 +50,10 @@ ShadowAtlas::Slot* ShadowAtlas::find_free(int wanted, const std::vector<bool>& t
 std::vector<std::optional<gl::Rect>> ShadowAtlas::assign(std::span<const Request> requests) {
     std::vector<size_t> order(requests.size());
     std::iota(order.begin(), order.end(), size_t{0});
-    // Among equals the last one made chooses first, as in Godot.
-    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-        const Request &left = requests[a], &right = requests[b];
-        return left.wanted != right.wanted ? left.wanted > right.wanted : left.light > right.light;
-    });
+    const auto rank = [&](size_t i) {
+        return std::tuple(requests[i].wanted, std::ilogb(requests[i].reach_m), requests[i].light);
+    };
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return rank(a) > rank(b); });
     std::vector<std::optional<gl::Rect>> out(requests.size());
     std::vector<bool> taken(slots_.size(), false);
     const auto give = [&](size_t request, Slot* slot) {

@@ -21,10 +21,13 @@ public:
 
     struct Request {
         RID light;
-        int wanted = 0; ///< edge of the slot it would like [texels]
+        int wanted = 0;       ///< edge of the slot it would like [texels]
+        float reach_m = 0.0f; ///< longest edge of the box that it lights
     };
     /// Gives every light a slot: one it has already if that is of the size it wants, else the smallest free
-    /// one that is large enough, else the largest free one. Lights that want most choose first.
+    /// one that is large enough, else the largest free one. Lights that want most choose first, among them
+    /// those of the largest boxes by powers of two, among these the last one made: fitted to what Godot,
+    /// which asks a spatial index, is seen to do.
     /// @return by request; std::nullopt where no slot was left (the light then casts no shadow).
     std::vector<std::optional<gl::Rect>> assign(std::span<const Request> requests);
 

@@ -34,6 +34,12 @@ glm::mat4 face_from_light(gl::CubeFace face) noexcept {
     return glm::lookAt(glm::vec3(0.0f), kForward[i], kUp[i]);
 }
 
+/// Longest edge of the box that a light reaches.
+float reach_m(const LightItem& light) noexcept {
+    const glm::vec3 size = transformed(light.world_from_light, light_bounds(*light.desc)).size;
+    return std::max(size.x, std::max(size.y, size.z));
+}
+
 Transform transform_from(const glm::mat4& m) noexcept {
     return {glm::mat3(m), glm::vec3(m[3])};
 }
@@ -169,7 +175,7 @@ LocalShadowPass::draw(const Frame& frame, const Resources& resources, CasterDraw
         const LightItem& light = frame.lights[i];
         if (casts_local_shadow(light)) {
             const float coverage = light_coverage(light, frame.camera, frame.size);
-            requests.push_back({light.key, wanted_slot_size(coverage, atlas_size)});
+            requests.push_back({light.key, wanted_slot_size(coverage, atlas_size), reach_m(light)});
             owners.push_back(i);
         }
     }
