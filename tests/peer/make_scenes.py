@@ -333,8 +333,123 @@ def compressed():
     return s
 
 
+def nested():
+    """Probe, meshes and lamp below parents that are turned, mirrored and scaled unevenly; one chain is broken, one hidden."""
+    s = Room()
+    s.shell()
+    s.node("Turned", "Spatial", transform=place((.2, 1.4, -.1), 30, 10, -15, (1.4, .7, 1.1)))
+    s.node("Mirror", "Spatial", parent="Turned", transform=place((0, .1, 0), 20, 0, 0, (-1, 1, 1)))
+    s.node("Broken", "Node", parent="Turned")
+    s.node("Dark", "Spatial", parent="Turned", visible=False)
+    inner = dict(use_in_baked_light=True, mesh=s.cube)
+    s.node("Sheared", "MeshInstance", parent="Turned/Mirror", transform=place((.6, -.9, .2), 35, 25, 0, (.7, 1, .5)),
+           **inner, **{"material/0": s.diffuse(WHITE)})
+    s.node("Egg", "MeshInstance", parent="Turned/Mirror", transform=place((-.5, -.8, .5), 0, 0, 40, (.4, .6, .4)),
+           use_in_baked_light=True, mesh=s.sphere, **{"material/0": s.diffuse(BLUE)})
+    s.node("InWorld", "MeshInstance", parent="Turned/Broken", transform=place((-1.1, .4, -.9), 15, 0, 0, (.6, .8, .6)),
+           **inner, **{"material/0": s.diffuse(GREEN)})
+    s.node("Unseen", "MeshInstance", parent="Turned/Dark", transform=place((0, 0, .5)), **inner)
+    s.node("Lamp", "OmniLight", parent="Turned/Mirror", transform=place((.1, 1.2, .6), 0, 0, 0, (3, 3, 3)), light_energy=1.5,
+           light_specular=0.0, shadow_enabled=True, omni_range=7.0)
+    s.node("Beam", "SpotLight", parent="Turned/Mirror", transform=place((-.9, .8, 1.2), -35, -40, 0, (.5, 2, 1)),
+           light_energy=2.0, light_specular=0.0, shadow_enabled=True, spot_range=6.0, spot_angle=25.0)
+    s.camera()
+    s.node("Probe", "GIProbe", parent="Turned", transform=place((0, .1, 0), -10, 5, 0, (2, 2, .5)), subdiv=1,
+           extents=vector(3.1, 2.7, 3.3))
+    return s
+
+
+def glowing():
+    """Emission textures: tiled, shifted, on UV2, both operators, energies; left behind by a feature that is off."""
+    s = Room(ambient=(.2, .2, .25), ambient_light_energy=.2)
+    bars = s.texture(128, 128, lambda x, y: (240, 120, 30) if (x // 32 + y // 64) % 2 else (10, 30, 80))
+    odd = s.texture(50, 21, lambda x, y: (x * 5, 255 - y * 12, 128, 255 - x * 5), 4)
+    on = dict(emission_enabled=True)
+    s.shell(5, 3, 4, left=WHITE, right=WHITE)
+    s.box("Tiled", s.diffuse((.2, .2, .2), emission=color(.1, .1, .1), emission_energy=1.5, emission_texture=bars,
+                             uv1_scale=vector(3, 2, 1), uv1_offset=vector(.2, .1, 0), **on), (-2.4, 1.6, -.4), (.1, 1.4, 2))
+    s.box("Negative", s.diffuse((.3, .3, .3), emission=color(.3, 1, .6), emission_energy=4.0, emission_operator=1,
+                                emission_texture=odd, uv1_scale=vector(-1, -2, 1), **on), (2.4, 1.6, -.4), (.1, 1.4, 2))
+    s.box("OnUv2", s.diffuse((.5, .5, .5), emission=color(0, 0, 0), emission_texture=bars, emission_on_uv2=True, **on),
+          (.9, .5, .3), (1, 1, 1), 25)
+    s.box("Off", s.diffuse((.4, .4, .4), emission=color(.9, .2, .2), emission_energy=1.2), (-.9, .5, .3), (1, 1, 1), -25)
+    s.ball("Both", s.diffuse((1, .9, .8), albedo_texture=odd, emission=color(.2, .1, .3), emission_energy=.8,
+                             emission_texture=odd, **on), (0, 2, -.9), .6)
+    s.camera()
+    s.probe(extents=(2.9, 1.9, 2.4), subdiv=1)
+    return s
+
+
+def overrides():
+    """A mesh of two surfaces and what may replace their materials; layers, LOD and shadow flags do not keep it from baking."""
+    s = Room()
+    s.shell(6, 3, 4)
+    leaf = lambda x0, y0, z: ", ".join(map(str, (x0, y0, z, x0, y0 + 1, z, x0 + 1, y0 + 1, z, x0 + 1, y0, z)))
+    surface = lambda m, z: ('{\n"primitive": 4,\n"arrays": [ PoolVector3Array( %s ), PoolVector3Array( %s ), null, null, '
+                            'PoolVector2Array( 0, 1, 0, 0, 1, 0, 1, 1 ), null, null, null, PoolIntArray( 0, 1, 2, 0, 2, 3 ) ],'
+                            '\n"material": %s,\n"morph_arrays": [  ]\n}' % (leaf(-.5, -.5, z), ", ".join(["0, 0, 1"] * 4), m))
+    mesh = s.resource("ArrayMesh", **{"surfaces/0": surface(s.diffuse(RED, params_cull_mode=2), 0),
+                                      "surfaces/1": surface(s.diffuse(GREEN, params_cull_mode=2), .3)})
+    turned = s.diffuse(BLUE, params_cull_mode=2)
+    checker = s.texture(16, 16, lambda x, y: (250, 200, 40) if (x // 4 + y // 4) % 2 else (20, 60, 200))
+    s.mesh("Own", mesh, None, (-2.2, .8, -.4), 20)
+    s.mesh("First", mesh, turned, (-.8, .8, -.4), 40)
+    s.mesh("Second", mesh, None, (.6, .8, -.4), -30, 10, **{"material/1": turned})
+    s.mesh("All", mesh, turned, (2, .8, -.4), -20, material_override=s.diffuse((1, 1, 1), albedo_texture=checker,
+                                                                              params_cull_mode=2))
+    s.mesh("OtherLayer", mesh, turned, (0, 2.2, -.9), 180, layers=2, lod_max_distance=.5, cast_shadow=0)
+    s.omni("Lamp", (0, 2.6, 1.2), 1.4)
+    s.omni("Dim", (-2, 1.5, 1.5), .4, 4.0, light_negative=True)
+    s.camera()
+    s.probe(extents=(3.4, 1.9, 2.4), subdiv=1)
+    return s
+
+
+def spots():
+    """Spot lights at the ends of their ranges: narrow, flat, beyond a half-space, exponents near 0 and large."""
+    s = Room()
+    s.shell(8, 3, 4, left=WHITE, right=WHITE)
+    s.box("Bar", s.diffuse(BLUE), (0, .3, .2), (6.5, .6, .3))
+    kinds = [dict(spot_attenuation=0.0), dict(spot_attenuation=6.0), dict(spot_angle_attenuation=0.05),
+             dict(spot_angle_attenuation=8.0), dict(angle=3.0), dict(angle=88.0), dict(angle=100.0),
+             dict(light_indirect_energy=0.0)]
+    hue = lambda i: color(*(.6 + .4 * math.cos(i * 1.3 + k * 2.1) for k in range(3)))
+    for i, more in enumerate(kinds):
+        x = -3.5 + i
+        s.spot("Spot%d" % i, (x, 2.6, 1.2), (x + .2, .2, -.9), .8, 5.0, **{"light_color": hue(i), **more})
+    s.camera((0, 1.6, 8.6), (0, 1.3, 0))
+    s.probe(extents=(4.4, 1.9, 2.4), subdiv=1)
+    return s
+
+
+def blended():
+    """Two probes turned against each other that differ in all that is read live, with a sky behind."""
+    s = Room(ambient=(.3, .25, .2), ambient_light_energy=.4, sky=dict(sky_top_color=color(.2, .3, .6)))
+    s.shell(6, 3, 4, ceiling=False)
+    s.box("Box", s.diffuse(WHITE), (-.5, .6, -.2), (.9, 1.2, .9), 20)
+    s.ball("Free", s.diffuse(BLUE), (1, .6, .4), .6, baked=False)
+    s.ball("Gloss", s.resource("SpatialMaterial", metallic=1.0, roughness=.2), (-1.8, .6, .3), .5)
+    s.omni("Lamp", (-.5, 2.4, .6), 1.3, 7.0)
+    s.sun("Sun", (.5, -1, -.6), .4)
+    s.camera()
+    s.probe("Inside", (-1, 1.4, 0), (2.6, 2, 2.7), 0, yaw=20.0, interior=True, bias=2.5, dynamic_range=2, propagation=.3)
+    s.probe("Outside", (1.1, 1.5, 0), (2.5, 2.1, 2.6), 1, yaw=-15.0, pitch=10.0, normal_bias=.12, energy=.6, dynamic_range=6)
+    return s
+
+
+def live_probe():
+    """Probe and light settings that change while the scene is shown."""
+    s = rooms("L", [dict(), dict(subdiv=0)], ambient=(.3, .4, .5), ambient_light_energy=.3)
+    s.edits = ["L0Probe:energy=1.7", "L0Probe:interior=true", "L0Probe:bias=0.5", "L1Probe:propagation=0.1",
+               "L1Probe:normal_bias=0.2", "L0Lamp:light_bake_mode=0", "L1Lamp:light_bake_mode=2", "L0Lamp:light_bake_mode=1",
+               "L1Lamp:light_indirect_energy=2.0", "L0Lamp:omni_range=3.0", "L1Lamp:omni_attenuation=2.0",
+               "L0Probe:propagation=1.0"]
+    return s
+
+
 SCENES = [rotated, far_away, textured, emissive, uneven, many_lights, moving_lights, three_probes, propagation, ranges, biases,
-          interiors, materials, surfaces, open_sky, two_suns, compressed]
+          interiors, materials, surfaces, open_sky, two_suns, compressed, nested, glowing,
+          overrides, spots, blended, live_probe]
 
 
 def write_scenes(folder, names=()):
