@@ -1,14 +1,11 @@
 #include "tests/drivers/gl_test.h"
 #include "tests/drivers/gles3/fragment_probe.h"
-#include "tests/servers/gi/volume_of.h"
+#include "tests/drivers/gles3/gpu_volume.h"
 #include "tests/shared_dir.h"
-
-#include "drivers/gles3/gi_volume_storage.h"
 
 #include "core/io/file.h"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <random>
@@ -16,6 +13,7 @@
 
 using namespace cl;
 using namespace cl::gles3;
+using tests::glsl;
 using tests::GLTest;
 using tests::on_each_gl;
 
@@ -39,10 +37,6 @@ std::vector<gi::Cone> random_cones(size_t count) {
     return cones;
 }
 
-std::string constant(const glm::vec3& v) {
-    return fmt::format("vec3({:.9e}, {:.9e}, {:.9e})", v.x, v.y, v.z);
-}
-
 /// A function that traces the pixel's cone by the shader library.
 std::string body_of(const std::vector<gi::Cone>& cones) {
     const auto library =
@@ -53,7 +47,7 @@ std::string body_of(const std::vector<gi::Cone>& cones) {
         const gi::Cone& c = cones[i];
         body += fmt::format("if (pixel == {}) return trace_cone(volume, vec3(1.0 / {:.1f}), {}, {}, {:.9e}, "
                             "{:.9e}, {:.9e});\n",
-                            i, float(kSize), constant(c.origin), constant(c.direction), c.tan_half_aperture,
+                            i, float(kSize), glsl(c.origin), glsl(c.direction), c.tan_half_aperture,
                             c.first_distance, c.max_distance);
     }
     return body + "return vec4(0.0);\n}\n";
@@ -63,27 +57,14 @@ std::string body_of(const std::vector<gi::Cone>& cones) {
 
 TEST_SUITE("drivers/gles3/cone_trace") {
     TEST_CASE("[gl] the shader's cone gathers what its twin on the CPU gathers") {
-        std::mt19937 random(3);
-        const tests::FilledVolume filled(kSize, [&random](int level, int) {
-            const auto some = [&random] { return uint8_t(random() % 120); };
-            // Fine levels are mostly empty, as walls in a room are, so that cones go far.
-            return level < 3 && random() % 8 != 0 ? glm::u8vec4(0)
-                                                  : glm::u8vec4(some(), some(), some(), some());
-        });
+        const tests::FilledVolume filled = tests::sparse_volume(kSize);
         const gi::VolumeSampler twin = filled.sampler();
         const std::vector<gi::Cone> cones = random_cones(16);
         const std::string body = body_of(cones);
         on_each_gl([&](GLTest&) {
             Expected<GIVolumeStorage> storage = GIVolumeStorage::create();
             REQUIRE(storage);
-            const int mips = int(filled.levels.size());
-            const Expected<RID> rid = storage->create({glm::ivec3(kSize), mips});
-            REQUIRE(rid);
-            for (int m = 0; m < mips; ++m) {
-                REQUIRE(storage->upload(*rid, m, glm::ivec3(0), filled.sizes[size_t(m)],
-                                        filled.levels[size_t(m)]));
-            }
-            storage->get(*rid)->bind(0);
+            tests::bind_volume(*storage, filled);
             const std::vector<glm::vec4> got = tests::probe_fragments(body, int(cones.size()), kVolume);
             for (size_t i = 0; i < cones.size(); ++i) {
                 CAPTURE(i);
