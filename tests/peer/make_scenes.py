@@ -406,12 +406,15 @@ def overrides():
 
 
 def spots():
-    """Spot lights at the ends of their ranges: narrow, flat, beyond a half-space, exponents near 0 and large."""
+    """Spot lights at the ends of their ranges: narrow, flat, beyond a half-space, exponents near 0 and large.
+
+    With a shadow Godot also darkens what lies behind one wider than 90 degrees, whose map no perspective can hold.
+    """
     s = Room()
     s.shell(8, 3, 4, left=WHITE, right=WHITE)
     s.box("Bar", s.diffuse(BLUE), (0, .3, .2), (6.5, .6, .3))
     kinds = [dict(spot_attenuation=0.0), dict(spot_attenuation=6.0), dict(spot_angle_attenuation=0.05),
-             dict(spot_angle_attenuation=8.0), dict(angle=3.0), dict(angle=88.0), dict(angle=100.0),
+             dict(spot_angle_attenuation=8.0), dict(angle=3.0), dict(angle=88.0), dict(angle=100.0, shadow_enabled=False),
              dict(light_indirect_energy=0.0)]
     hue = lambda i: color(*(.6 + .4 * math.cos(i * 1.3 + k * 2.1) for k in range(3)))
     for i, more in enumerate(kinds):
