@@ -2,6 +2,7 @@
 
 #include "scene/3d/gi_probe.h"
 #include "scene/3d/mesh_instance.h"
+#include "scene/resources/array_mesh.h"
 #include "scene/resources/primitive_meshes.h"
 #include "scene/resources/spatial_material.h"
 
@@ -140,6 +141,52 @@ TEST_SUITE("scene/3d/gi_probe") {
         CHECK(collect_bake_items(inside, Transform(), glm::vec3(1.0f)).size() == 3);
         CHECK(collect_bake_items(scene, Transform(), glm::vec3(1.0f)).size() == 4);
         CHECK(collect_bake_items(hidden, Transform(), glm::vec3(1.0f)).size() == 1);
+    }
+
+    TEST_CASE("layers, shadows, levels of detail and a box of the mesh's own keep nothing out of a bake") {
+        register_types();
+        Spatial scene;
+        MeshInstance& box = add_box(scene, "Box", {0, 0, 0}, glm::vec3(0.5f));
+        box.set_layers(0);
+        CHECK(box.set_cast_shadow(ShadowCasting::ShadowsOnly) == SetResult::Done);
+        box.set_lod_range({.min_distance_m = 5.0f, .max_distance_m = 6.0f});
+        box.mesh()->set_custom_aabb({glm::vec3(100.0f), glm::vec3(1.0f)});
+        CHECK(collect_bake_items(scene, Transform(), glm::vec3(1.0f)).size() == 1);
+    }
+
+    TEST_CASE("each surface is baked with the override, else the instance's own, else the mesh's material; "
+              "lines are "
+              "not baked") {
+        register_types();
+        auto mesh = make_ref<ArrayMesh>();
+        for (const PrimitiveType type :
+             {PrimitiveType::Triangles, PrimitiveType::Lines, PrimitiveType::Triangles}) {
+            SurfaceArrays arrays;
+            arrays.positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0, 0.5f, 0}, {0, 0, 0.5f}};
+            arrays.indices = {0, 1, 2};
+            if (type == PrimitiveType::Lines) {
+                arrays.indices = {0, 3};
+            }
+            REQUIRE(mesh->add_surface_from_arrays(arrays, type).ok());
+        }
+        const auto of_mesh = colored({1, 0, 0, 1}), of_slot = colored({0, 1, 0, 1}),
+                   over = colored({0, 0, 1, 1});
+        mesh->set_surface_material(0, of_mesh);
+        mesh->set_surface_material(2, of_mesh);
+        MeshInstance instance;
+        instance.set_mesh(mesh);
+        instance.set_use_in_baked_light(true);
+        CHECK(instance.set_surface_material(2, of_slot) == SetResult::Done);
+        const auto materials = [&instance] {
+            return collect_bake_items(instance, Transform(), glm::vec3(1.0f)).at(0).materials;
+        };
+        CHECK(materials() == std::vector<Ref<Material>>{of_mesh, nullptr, of_slot});
+        instance.set_material_override(over);
+        CHECK(materials() == std::vector<Ref<Material>>{over, over, over});
+        const Expected<BakeResult> baked = bake_probe(
+            instance, {.extents_m = glm::vec3(1.0f), .subdivision = 64, .world_from_probe = Transform()});
+        REQUIRE(baked.has_value());
+        CHECK(baked->figures.triangles == 2);
     }
 
     TEST_CASE("meshes that a node builds are baked with the mesh's own materials, flag or no flag") {
