@@ -38,7 +38,11 @@ func frames(n):
 	for i in range(n):
 		yield(get_tree(), "idle_frame")
 func _ready():
-	var root = load("res://%(scene)s").instance()
+	var scene = load("res://%(scene)s")
+	if scene == null:
+		get_tree().quit()
+		return
+	var root = scene.instance()
 	add_child(root)
 	var probes = []
 	probes_of(root, probes)
@@ -77,6 +81,11 @@ func _ready():
 """
 
 
+# What Godot shows only after its editor has made files of its own from it.
+IMPORTED = {".png", ".jpg", ".jpeg", ".webp", ".tga", ".hdr", ".exr", ".gltf", ".glb", ".obj", ".dae"}
+PATIENCE_S = "900"
+
+
 class GodotFailed(Exception):
     pass
 
@@ -101,6 +110,27 @@ def copy_project(scene, folder):
     return scene.relative_to(root)
 
 
+def call(folder, *words, variables=()):
+    """Runs Godot on the project in `folder`, where its caches and settings stay, too."""
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", "env", *variables, "timeout", PATIENCE_S, "godot3", "--path",
+               str(folder), *words]
+    return subprocess.run(command, capture_output=True, text=True, env={**os.environ, "HOME": str(folder)})
+
+
+def add_imported(folder, kept):
+    """Gives the project in `folder` what the editor imports of its textures and models; `kept`: where that is kept."""
+    made = folder / ".import"
+    if made.exists() or not any(p.suffix.lower() in IMPORTED for p in folder.rglob("*")):
+        return
+    if kept.exists():
+        shutil.copytree(kept, made)
+        return
+    done = call(folder, "--editor", "--quit")  # it may crash at its end, when all is imported
+    if not made.exists():
+        raise GodotFailed(f"{folder}: nothing was imported: {done.stdout[-600:]}{done.stderr[-600:]}")
+    shutil.copytree(made, kept)
+
+
 def run(scene, folder, size, quality="high", edits=(), off=False, extra=None):
     """Draws `scene` (Path) with a copy of its project in `folder`; bakes the probes that have no data.
 
@@ -111,13 +141,10 @@ def run(scene, folder, size, quality="high", edits=(), off=False, extra=None):
     inside = copy_project(scene, folder)
     words = dict(scene=inside, edits=json.dumps([list(e) for e in edits]), off="true" if off else "false")
     (folder / "project.godot").write_text(PROJECT % (*size, "true" if quality == "high" else "false"))
+    add_imported(folder, folder.parent / "imported")
     (folder / "peer_main.gd").write_text(SCRIPT % words)
     (folder / "peer_main.tscn").write_text(MAIN)
-    variables = ["env", *("%s=%s" % v for v in (extra or {}).items())]
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", *variables, "timeout", "280", "godot3", "--path",
-               str(folder)]
-    environment = {**os.environ, "HOME": str(folder)}  # its caches and settings stay in there
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    done = call(folder, variables=["%s=%s" % v for v in (extra or {}).items()])
     if not (folder / "peer_out.json").exists():
         raise GodotFailed(f"{scene}: Godot ended with status {done.returncode}: {done.stdout[-600:]}{done.stderr[-600:]}")
     figures = json.loads((folder / "peer_out.json").read_text())
