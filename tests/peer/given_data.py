@@ -2,7 +2,7 @@
 import re
 import shutil
 
-from godot import copy_project
+from godot import copy_project, project_root
 
 FIRST_ID = 90001  # beyond the ids of any scene
 PROBE = re.compile(r'^\[node name="([^"]+)" type="GIProbe"[^\]]*\]\n(?:(?!\[|; ).*\n)*', re.M)
@@ -29,6 +29,7 @@ def scene_with_data(scene, folder, data):
     copy = folder / copy_project(scene, folder)
     for name, path in data.items():
         shutil.copy(path, folder / ("given_%s.tres" % name))
-    (folder / "project.godot").touch()
+    project = project_root(scene) / "project.godot"
+    (folder / "project.godot").write_text(project.read_text() if project.exists() else "")
     copy.write_text(with_data(copy.read_text(), {n: "res://given_%s.tres" % n for n in data}))
     return copy

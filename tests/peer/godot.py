@@ -13,12 +13,10 @@ run/main_scene="res://peer_main.tscn"
 window/size/width=%d
 window/size/height=%d
 [rendering]
-quality/driver/driver_name="GLES3"
-quality/voxel_cone_tracing/high_quality=%s
-quality/shadow_atlas/size=4096
-quality/directional_shadow/size=4096
-quality/filters/msaa=0
+%s
 """
+FORCED = {"quality/driver/driver_name": '"GLES3"', "quality/filters/msaa": "0"}
+USUAL = {"quality/shadow_atlas/size": "4096", "quality/directional_shadow/size": "4096"}
 MAIN = """[gd_scene load_steps=2 format=2]
 
 [ext_resource path="res://peer_main.gd" type="Script" id=1]
@@ -110,6 +108,20 @@ def copy_project(scene, folder):
     return scene.relative_to(root)
 
 
+def rendering_settings(scene, quality):
+    """Those of the scene's own project, which Conelight follows, too; but what a comparison needs."""
+    own, project = dict(USUAL), project_root(scene) / "project.godot"
+    section = ""
+    for line in project.read_text().splitlines() if project.exists() else []:
+        name, equals, value = line.partition("=")
+        if line.startswith("["):
+            section = line.strip()
+        elif equals and section == "[rendering]":
+            own[name] = value
+    own.update(FORCED, **{"quality/voxel_cone_tracing/high_quality": "true" if quality == "high" else "false"})
+    return "\n".join("%s=%s" % setting for setting in own.items())
+
+
 def call(folder, *words, variables=()):
     """Runs Godot on the project in `folder`, where its caches and settings stay, too."""
     command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24", "env", *variables, "timeout", PATIENCE_S, "godot3", "--path",
@@ -140,7 +152,7 @@ def run(scene, folder, size, quality="high", edits=(), off=False, extra=None):
     """
     inside = copy_project(scene, folder)
     words = dict(scene=inside, edits=json.dumps([list(e) for e in edits]), off="true" if off else "false")
-    (folder / "project.godot").write_text(PROJECT % (*size, "true" if quality == "high" else "false"))
+    (folder / "project.godot").write_text(PROJECT % (*size, rendering_settings(scene, quality)))
     add_imported(folder, folder.parent / "imported")
     (folder / "peer_main.gd").write_text(SCRIPT % words)
     (folder / "peer_main.tscn").write_text(MAIN)

@@ -46,7 +46,8 @@ def scenes_of(paths, work):
 
 def godot_run(scene, folder, size, recorder, records, **more):
     """godot.run() with its volumes recorded, or what it made last time of the same."""
-    words = json.dumps([size, sorted(more.items())], default=str) + godot.SCRIPT + volumes.SOURCE.read_text()
+    words = json.dumps([size, sorted(more.items()), godot.rendering_settings(scene, "")], default=str)
+    words += godot.SCRIPT + volumes.SOURCE.read_text()
     key = hashlib.sha256(words.encode() + scene.read_bytes()).hexdigest()
     kept = folder.with_name(folder.name + ".json")
     if kept.exists():
