@@ -5,11 +5,13 @@
 namespace cl::gi {
 
 void LeafBitmap::measure_free_space() {
+    if (words_.empty()) {
+        return;
+    }
     // Chebyshev distance in bricks to the nearest brick with leaves, by one sweep there and one back
     // (Rosenfeld and Pfaltz 1966). Outside of the grid nothing is met.
     constexpr int kFar = 62; // so that steps fit a byte
-    const glm::ivec3 n(int(words_x_), words_x_ > 0 ? int(words_xy_ / words_x_) : 0,
-                       words_xy_ > 0 ? int(words_.size() / words_xy_) : 0);
+    const glm::ivec3 n(int(words_x_), int(words_xy_ / words_x_), int(words_.size() / words_xy_));
     std::vector<uint8_t> away(words_.size());
     std::transform(words_.begin(), words_.end(), away.begin(),
                    [](uint64_t leaves) { return uint8_t(leaves == 0 ? kFar : 0); });
@@ -30,13 +32,19 @@ void LeafBitmap::measure_free_space() {
             }
         }
     };
-    for (size_t i = 0; i < away.size(); ++i) {
-        const size_t x = i % size_t(n.x), y = i / size_t(n.x) % size_t(n.y), z = i / words_xy_;
-        relax({int(x), int(y), int(z)}, -1);
+    for (int z = 0; z < n.z; ++z) {
+        for (int y = 0; y < n.y; ++y) {
+            for (int x = 0; x < n.x; ++x) {
+                relax({x, y, z}, -1);
+            }
+        }
     }
-    for (size_t i = away.size(); i-- > 0;) {
-        const size_t x = i % size_t(n.x), y = i / size_t(n.x) % size_t(n.y), z = i / words_xy_;
-        relax({int(x), int(y), int(z)}, 1);
+    for (int z = n.z; z-- > 0;) {
+        for (int y = n.y; y-- > 0;) {
+            for (int x = n.x; x-- > 0;) {
+                relax({x, y, z}, 1);
+            }
+        }
     }
     // From anywhere in a brick d bricks away the next leaf is more than 4 (d - 1) cells off. One less, as
     // rounding may make steps a hair longer than a cell.
