@@ -3,32 +3,13 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 
-PROJECT = """config_version=4
-[application]
-config/name="bench"
-run/main_scene="res://bench_main.tscn"
-[display]
-window/size/width=%d
-window/size/height=%d
-window/vsync/use_vsync=false
-[rendering]
-quality/driver/driver_name="GLES3"
-quality/voxel_cone_tracing/high_quality=%s
-quality/shadow_atlas/size=4096
-quality/directional_shadow/size=4096
-quality/filters/msaa=0
-threads/thread_model=1
-"""
-MAIN = """[gd_scene load_steps=2 format=2]
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "peer"))
+from godot_project import GodotFailed, add_imported, copy_project, write_project
 
-[ext_resource path="res://bench_main.gd" type="Script" id=1]
-
-[node name="Main" type="Spatial"]
-script = ExtResource( 1 )
-"""
 # What every script starts with. Frames are told apart by all their bytes.
 COMMON = """extends Spatial
 var root
@@ -148,10 +129,6 @@ func _ready():
 """
 
 
-class GodotFailed(Exception):
-    pass
-
-
 class Display:
     """One Xvfb for all runs: its start is not part of any time."""
 
@@ -189,23 +166,6 @@ def timed(command, folder, log, seconds, **variables):
     return process.returncode, wall_ms, usage.ru_maxrss / 1024.0
 
 
-def project_root(scene):
-    """The nearest folder upward that holds a project.godot, else the scene's own."""
-    return next((f for f in scene.parents if (f / "project.godot").exists()), scene.parent)
-
-
-def copy_project(scene, folder):
-    """The scene alone if it is complete in itself, else its whole project; returns its path in `folder`."""
-    root = project_root(scene)
-    inside = scene.relative_to(root)
-    if "[ext_resource" in scene.read_text():
-        shutil.copytree(root, folder, ignore=shutil.ignore_patterns(".git"))
-    else:
-        (folder / inside).parent.mkdir(parents=True)
-        shutil.copy(scene, folder / inside)
-    return inside
-
-
 class Godot:
     def __init__(self, display, work, size, seconds):
         self.display, self.work, self.size, self.seconds = display, Path(work), size, seconds
@@ -216,10 +176,9 @@ class Godot:
         self.count += 1
         folder = self.work / f"godot_{self.count}"
         inside = copy_project(scene, folder)
-        high = "true" if quality == "high" else "false"
-        (folder / "project.godot").write_text(PROJECT % (*(size or self.size), high))
-        (folder / "bench_main.gd").write_text((COMMON + script) % dict(scene=inside, **words))
-        (folder / "bench_main.tscn").write_text(MAIN)
+        text = (COMMON + script) % dict(scene=inside, **words)
+        write_project(scene, folder, "bench", text, size or self.size, quality)
+        add_imported(folder, self.work / f"imported_{scene.stem}")
         log = self.work / f"godot_{self.count}.log"
         status, wall_ms, peak_mib = timed(["godot3", "--path", str(folder)], folder, log, self.seconds,
                                           DISPLAY=self.display.name)

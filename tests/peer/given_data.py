@@ -2,7 +2,7 @@
 import re
 import shutil
 
-from godot import copy_project, project_root
+from godot_project import copy_project, project_root
 
 FIRST_ID = 90001  # beyond the ids of any scene
 PROBE = re.compile(r'^\[node name="([^"]+)" type="GIProbe"[^\]]*\]\n(?:(?!\[|; ).*\n)*', re.M)
