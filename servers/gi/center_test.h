@@ -44,11 +44,12 @@ inline auto surely_touches(const CenterTest& test, const Boxes<F>& boxes) noexce
 /// @param least_half_m  the smallest half edge of the boxes
 inline uint32_t overlapping_boxes(const Boxes<float4>& boxes, const glm::vec3 (&vertices)[3],
                                   const CenterTest& test, float least_half_m) noexcept {
-    if (least_half_m < test.least_half_m) {
-        return overlapping_boxes(boxes, vertices);
-    }
     const uint32_t apart = lane_bits(separated_by_box_axis(boxes, vertices));
-    if (apart == 15u || (apart | lane_bits(surely_touches(test, boxes))) == 15u) {
+    if (apart == 15u) {
+        return 0;
+    }
+    const bool may_settle = least_half_m >= test.least_half_m;
+    if (may_settle && (apart | lane_bits(surely_touches(test, boxes))) == 15u) {
         return ~apart & 15u;
     }
     return overlapping_boxes(boxes, vertices);
