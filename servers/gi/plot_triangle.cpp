@@ -2,9 +2,13 @@
 
 #include "servers/gi/triangle_box.h"
 
+#include "core/threads.h"
+
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cl::gi {
@@ -87,12 +91,25 @@ void set_plane(PlotTriangle& t) {
     t.axis = dominant_axis(t.plane_normal);
 }
 
-void collect_surface(const PlotSurface& s, uint32_t number, const Boxes<float>& box,
-                     std::vector<PlotTriangle>& out) {
-    const size_t corners = corner_count(s) / 3 * 3;
-    for (size_t i = 0; i < corners; i += 3) {
+/// Triangles of a surface that one worker looks at.
+struct Part {
+    uint32_t surface;
+    size_t begin, end; ///< corners
+    std::vector<PlotTriangle> found;
+};
+
+constexpr size_t kPartCorners = 3 * 4096;
+
+float longest_side(const PlotTriangle& t) {
+    const glm::vec3 size =
+        glm::max(glm::max(t.v[0], t.v[1]), t.v[2]) - glm::min(glm::min(t.v[0], t.v[1]), t.v[2]);
+    return std::max(size.x, std::max(size.y, size.z));
+}
+
+void collect(const PlotSurface& s, const Boxes<float>& box, float leaf_m, Part& part) {
+    for (size_t i = part.begin; i < part.end; i += 3) {
         PlotTriangle t{};
-        t.surface = number;
+        t.surface = part.surface;
         bool usable = true;
         for (size_t k = 0; k < 3; ++k) {
             t.vertex[k] = s.indices.empty() ? uint32_t(i + k) : s.indices[i + k];
@@ -104,30 +121,44 @@ void collect_surface(const PlotSurface& s, uint32_t number, const Boxes<float>& 
         }
         set_plane(t);
         t.is_uniform = is_uniform(s, t.vertex);
-        t.center_test = make_center_test(t.v, t.axis);
-        out.push_back(t);
+        if (longest_side(t) > leaf_m) { // smaller ones cover no middle that would pay for it
+            t.center_test = make_center_test(t.v, t.axis);
+        }
+        part.found.push_back(t);
     }
 }
 
 } // namespace
 
-Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces,
-                                                      const AABB& box) {
+Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces, const AABB& box,
+                                                      float leaf_m) {
     const glm::vec3 half = box.size * 0.5f;
     const glm::vec3 center = box.position + half;
     const Boxes<float> boxes{{center.x, center.y, center.z}, {half.x, half.y, half.z}};
-    std::vector<PlotTriangle> triangles;
+    std::vector<Part> parts;
     size_t corners = 0;
     for (size_t i = 0; i < surfaces.size(); ++i) {
         if (Status s = check_surface(surfaces[i], i); !s) {
             return s.error();
         }
-        corners += corner_count(surfaces[i]);
+        const size_t count = corner_count(surfaces[i]) / 3 * 3;
+        corners += count;
         if (corners / 3 > kMaxTriangles) {
             return Error{ErrorCode::OutOfMemory,
                          fmt::format("bake: expected at most {} triangles, found more", kMaxTriangles)};
         }
-        collect_surface(surfaces[i], uint32_t(i), boxes, triangles);
+        for (size_t begin = 0; begin < count; begin += kPartCorners) {
+            parts.push_back({uint32_t(i), begin, std::min(begin + kPartCorners, count), {}});
+        }
+    }
+    parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            collect(surfaces[parts[i].surface], boxes, leaf_m, parts[i]);
+        }
+    });
+    std::vector<PlotTriangle> triangles;
+    for (const Part& part : parts) {
+        triangles.insert(triangles.end(), part.found.begin(), part.found.end());
     }
     return triangles;
 }

@@ -29,8 +29,9 @@ struct PlotTriangle {
 /// The triangles of all surfaces that touch `box`, in plot order (surface after surface, triangle after
 /// triangle; spec gi-bake section 4). Triangles with a coordinate that is not finite or beyond 1e12 m are
 /// left out: their separating-axis test would overflow and find them everywhere.
+/// @param leaf_m  edge of a leaf: triangles that are smaller get no center_test
 /// @return InvalidArgument where arrays do not fit together; OutOfMemory beyond 2^31 triangles.
 [[nodiscard]] Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces,
-                                                                    const AABB& box);
+                                                                    const AABB& box, float leaf_m);
 
 } // namespace cl::gi

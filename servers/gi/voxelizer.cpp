@@ -58,7 +58,8 @@ public:
     }
 
     Expected<Octree> run() {
-        Expected<std::vector<PlotTriangle>> triangles = collect_triangles(surfaces_, grid_.box);
+        Expected<std::vector<PlotTriangle>> triangles =
+            collect_triangles(surfaces_, grid_.box, grid_.cell_size_m);
         if (!triangles) {
             return triangles.error();
         }
