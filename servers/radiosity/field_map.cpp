@@ -86,6 +86,13 @@ FacingCells cells_facing(const Patches& patches, size_t grid_index, int facing) 
     return out;
 }
 
+/// The bits of a slot's words that tell it from the other one of its cell.
+std::array<uint32_t, 2> place_bits(SlotTest test, const glm::vec3& where) noexcept {
+    const glm::uvec3 place(glm::clamp(where * float(kPlaceSteps), 0.0f, float(kPlaceSteps - 1)));
+    const uint32_t bits = place.x | place.y << 3 | place.z << 6;
+    return {(bits & 31u) << 27, (bits >> 5) << 27 | 1u << 31 | (test == SlotTest::Normal ? 1u << 13 : 0u)};
+}
+
 class Joiner {
 public:
     Joiner(const Transport& t, size_t grid_index)
@@ -103,19 +110,25 @@ public:
         return !t_.rays.is_blocked(patches_.position[a] + lift_m * na, patches_.position[b] + lift_m * nb);
     }
 
-    /// Where the patches of a cell's slots are said to lie.
-    [[nodiscard]] std::array<glm::vec3, FieldMap::kSlots>
-    places(const std::array<uint32_t, FieldMap::kSlots>& slots) const {
-        if (slots[1] == kNoPatch) {
-            return {place_in_cell(patches_, slots[0]), glm::vec3(0.0f)};
+    /// The words of a cell's slots. @param find  slots of a cell and facing, or nullptr
+    template <typename Find>
+    void join(const std::array<uint32_t, FieldMap::kSlots>& slots, const Find& find, uint32_t* words) const {
+        const bool has_second = slots[1] != kNoPatch;
+        const SlotPlaces places =
+            has_second ? slot_places(t_.rays, *t_.scene, patches_, slots[0], slots[1]) : SlotPlaces{};
+        for (size_t s = 0; s < (has_second ? 2 : 1); ++s) {
+            const std::array<uint32_t, 2> around = joint(slots[s], find);
+            const std::array<uint32_t, 2> place =
+                has_second ? place_bits(places.test, places.at[s]) : std::array<uint32_t, 2>{};
+            words[s * 2] = around[0] | place[0];
+            words[s * 2 + 1] = around[1] | place[1];
         }
-        return slot_places(t_.rays, *t_.scene, patches_, slots[0], slots[1]);
     }
 
-    /// The two words of a slot. @param find  slots of a cell and facing, or nullptr
+private:
+    /// The two words of a slot, its place not among them. @param find  slots of a cell and facing, or nullptr
     template <typename Find>
-    [[nodiscard]] std::array<uint32_t, 2> joint(uint32_t patch, const glm::vec3& where, bool has_second,
-                                                const Find& find) const {
+    [[nodiscard]] std::array<uint32_t, 2> joint(uint32_t patch, const Find& find) const {
         std::array<uint32_t, 2> words{1u << 13, 0u};
         const glm::ivec3 cell = grid_.cell_at(patches_.order[patch]);
         for (int i = 0; i < 27; ++i) {
@@ -127,14 +140,9 @@ public:
                 words[1] |= 1u << i;
             }
         }
-        const glm::uvec3 place(glm::clamp(where * float(kPlaceSteps), 0.0f, float(kPlaceSteps - 1)));
-        const uint32_t bits = place.x | place.y << 3 | place.z << 6;
-        words[0] |= (bits & 31u) << 27;
-        words[1] |= (bits >> 5) << 27 | (has_second ? 1u << 31 : 0u);
         return words;
     }
 
-private:
     const Transport& t_;
     const Patches& patches_;
     const CellGrid& grid_;
@@ -157,16 +165,7 @@ void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) 
     map.joints.resize(joints_at + cells.slots.size() * FieldMap::kSlots * 2);
     parallel_for(cells.slots.size(), 256, [&](size_t begin, size_t end) {
         for (size_t c = begin; c < end; ++c) {
-            const auto places = joiner.places(cells.slots[c]);
-            for (size_t s = 0; s < FieldMap::kSlots; ++s) {
-                if (cells.slots[c][s] != kNoPatch) {
-                    const auto words =
-                        joiner.joint(cells.slots[c][s], places[s], cells.slots[c][1] != kNoPatch, find);
-                    std::copy(words.begin(), words.end(),
-                              map.joints.begin() +
-                                  std::ptrdiff_t(joints_at + (c * FieldMap::kSlots + s) * 2));
-                }
-            }
+            joiner.join(cells.slots[c], find, &map.joints[joints_at + c * FieldMap::kSlots * 2]);
         }
     });
     for (const auto& slots : cells.slots) {

@@ -30,8 +30,9 @@ struct FieldMap {
     /// Patch of each slot, slot `s` of cell `c` at kSlots * c + s; kNoPatch where there is none.
     std::vector<uint32_t> patches;
     /// Two words a slot: bits 0 to 26 of the first: cells around (x fastest, itself at 13) that go on from
-    /// here; of the second: the slot that does. Bits 27 to 31 and 27 to 30: place of the patch in its cell, 3
-    /// bits an axis. Bit 31 of the second: the cell's second slot is in use.
+    /// here; of the second: the slot that does, but for bit 13: pixels tell the cell's slots apart by
+    /// SlotTest::Normal. Bits 27 to 31 and 27 to 30: where SlotPlaces puts the patch, 3 bits an axis. Bit 31
+    /// of the second: the cell's second slot is in use.
     std::vector<uint32_t> joints;
 };
 

@@ -17,7 +17,7 @@ namespace {
 struct Outlook {
     int backs = 0;   ///< backs of surfaces
     int unclear = 0; ///< a front and a back in one place: two solids that touch, or a wall of no thickness
-    float openness_m = 1e30f; ///< harmonic mean of the distances
+    float openness_m = 1e30f; ///< median of the distances
 };
 
 template <size_t kCount>
@@ -26,7 +26,7 @@ Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float c
     rays.trace_side(RayScene::Side::Front, asked, fronts);
     rays.trace_side(RayScene::Side::Back, asked, backs);
     Outlook outlook;
-    float inverse_sum = 0.0f;
+    std::array<float, kCount> distances_m;
     for (size_t i = 0; i < kCount; ++i) {
         const float front_m = fronts[i].triangle == kMiss ? 1e30f : fronts[i].t;
         const float back_m = backs[i].triangle == kMiss ? 1e30f : backs[i].t;
@@ -34,9 +34,11 @@ Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float c
         const bool one_place = nearest_m < 1e30f && std::abs(front_m - back_m) < kNudge_cells * cell_m;
         outlook.unclear += one_place ? 1 : 0;
         outlook.backs += !one_place && back_m < front_m ? 1 : 0;
-        inverse_sum += nearest_m < 1e30f ? 1.0f / std::max(nearest_m, 1e-6f) : 0.0f;
+        distances_m[i] = nearest_m;
     }
-    outlook.openness_m = inverse_sum > 0.0f ? float(kCount) / inverse_sum : 1e30f;
+    const auto middle = distances_m.begin() + kCount / 2;
+    std::nth_element(distances_m.begin(), middle, distances_m.end());
+    outlook.openness_m = *middle;
     return outlook;
 }
 

@@ -13,7 +13,7 @@ namespace cl::radiosity {
 /// A point of a surface, lifted off it so that rays do not meet the surface itself.
 [[nodiscard]] glm::vec3 lifted(const glm::vec3& point, const glm::vec3& normal, float cell_m) noexcept;
 
-/// How open the space before a point is: harmonic mean of the distances to what is there [m]. Less than 0 if
+/// How open the space before a point is: median of the distances to what is there [m]. Less than 0 if
 /// most rays meet the backs of surfaces: it lies inside a solid.
 [[nodiscard]] float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal,
                              float cell_m) noexcept;

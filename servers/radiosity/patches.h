@@ -36,7 +36,7 @@ struct Patches {
     std::vector<glm::vec3> normal;           ///< unit length
     std::vector<glm::vec3> albedo, emission; ///< linear, mean over the patch
     std::vector<float> area_m2;
-    std::vector<float> openness_m; ///< harmonic mean of the distances to what is before it [m]
+    std::vector<float> openness_m; ///< median of the distances to what is before it [m]
     std::vector<uint8_t> grid;     ///< its grid
     std::vector<uint64_t> order;   ///< its cell's CellGrid::order()
 

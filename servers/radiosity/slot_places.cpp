@@ -10,6 +10,7 @@
 namespace cl::radiosity {
 namespace {
 
+constexpr float kOneFacing = 0.8f;      // cosine between patches that normals do not tell apart
 constexpr float kOneSurface = 0.9f;     // cosine between patches of one surface ...
 constexpr float kOneLayer_cells = 0.1f; // ... and the step between them
 
@@ -70,6 +71,11 @@ glm::vec3 rounded(const glm::vec3& place) noexcept {
     return (glm::floor(glm::clamp(place * steps, 0.0f, steps - 1.0f)) + 0.5f) / steps;
 }
 
+glm::vec3 facing_in_cell(const Patches& patches, uint32_t patch) noexcept {
+    const CellGrid& grid = patches.grids[patches.grid[patch]].cells;
+    return 0.5f + 0.5f * glm::normalize(grid.cells_from_world.basis * patches.normal[patch]);
+}
+
 /// field_distance() of shaders/lib/gi_field.glsl.
 float misfit(const glm::vec3& apart, const glm::vec3& normal) noexcept {
     const float rise = glm::dot(apart, normal);
@@ -97,9 +103,12 @@ glm::vec3 place_in_cell(const Patches& patches, uint32_t patch) noexcept {
            glm::vec3(grid.cell_at(patches.order[patch]));
 }
 
-std::array<glm::vec3, 2> slot_places(const RayScene& rays, const StillScene& scene, const Patches& patches,
-                                     uint32_t a, uint32_t b) {
-    std::array<glm::vec3, 2> best{place_in_cell(patches, a), place_in_cell(patches, b)};
+SlotPlaces slot_places(const RayScene& rays, const StillScene& scene, const Patches& patches, uint32_t a,
+                       uint32_t b) {
+    if (glm::dot(patches.normal[a], patches.normal[b]) < kOneFacing) {
+        return {SlotTest::Normal, {facing_in_cell(patches, a), facing_in_cell(patches, b)}};
+    }
+    SlotPlaces best{SlotTest::Place, {place_in_cell(patches, a), place_in_cell(patches, b)}};
     const std::optional<Border> border = border_of(rays, scene, patches, a, b);
     if (!border) {
         return best;
@@ -115,7 +124,7 @@ std::array<glm::vec3, 2> slot_places(const RayScene& rays, const StillScene& sce
         const float error = error_of(*border, one, other);
         if (error < least) {
             least = error;
-            best = {one, other};
+            best.at = {one, other};
         }
     }
     return best;

@@ -155,8 +155,9 @@ glm::vec3 place_of(const glm::uvec2& joint) {
 }
 
 float misfit(const glm::vec3& within, const glm::vec3& normal, const glm::uvec2& joint) {
-    const glm::vec3 apart = within - place_of(joint);
-    const float rise = glm::dot(apart, normal);
+    const bool by_normal = ((joint.y >> 13) & 1u) != 0u;
+    const glm::vec3 apart = (by_normal ? 0.5f + 0.5f * normal : within) - place_of(joint);
+    const float rise = by_normal ? 0.0f : glm::dot(apart, normal);
     return glm::dot(apart, apart) + 8.0f * rise * rise;
 }
 
@@ -177,7 +178,8 @@ PixelLight read(const FieldReader& field, const glm::vec3& at, const glm::vec3& 
         const glm::vec3 within = behind - glm::vec3(home);
         const bool second =
             (first.y >> 31) != 0u && misfit(within, normal, other) < misfit(within, normal, first);
-        joint = second ? glm::uvec2(other.x, other.y | 1u << 13) : first;
+        joint = second ? other : first;
+        joint.y = (joint.y & ~(1u << 13)) | (second ? 1u << 13 : 0u);
     }
     const glm::vec3 corner = glm::floor(behind - 0.5f), f = behind - 0.5f - corner;
     glm::vec4 sum(0.0f);

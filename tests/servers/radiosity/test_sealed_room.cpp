@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,20 +29,21 @@ Transform orientation(int i) {
     return {{x, up, glm::cross(x, up)}, kCell_m * 0.11f * glm::vec3(i % 7, i % 5, i % 3)};
 }
 
-/// Light of each kind outside a room, and the strongest that it gives there.
+constexpr float kAbove_m = 0.45f; ///< lamps and panels over the roof
+
+/// Light of each kind outside a room whose walls end at `outer_m` from its middle.
 struct Outside {
-    std::string name;
+    const char* name;
     Lighting lighting;
 };
 
-std::vector<Outside> lights_outside(const Transform& world_from_room) {
+std::vector<Outside> lights_outside(const Transform& world_from_room, float outer_m) {
     std::vector<Outside> all;
-    const auto add = [&](const std::string& name, const Source& source) {
+    const auto add = [&](const char* name, const Source& source) {
         all.push_back({name, darkness()});
         all.back().lighting.sources = {source};
     };
-    const glm::vec3 above = world_from_room.xform({0.2f, 1.1f, 0.15f});
-    Source lamp = omni_source(above, 5.0f);
+    Source lamp = omni_source(world_from_room.xform({0.2f, outer_m + kAbove_m, 0.15f}), 5.0f);
     add("omni", lamp);
     lamp.type = SourceType::Spot;
     lamp.to_light = world_from_room.basis[1];
@@ -87,7 +89,7 @@ Leak leak_of(const LitRoom& room, const Transform& world_from_room, const Lighti
         }
     }
     REQUIRE(inside_count > 500);
-    REQUIRE(outside_count > 50);
+    REQUIRE(outside_count > 20);
     outside /= float(outside_count);
     Leak leak{inside / outside, inside_sum / float(inside_count) / outside};
     const std::vector<SurfacePoint> points = points_inside(world_from_room, kInner_m, 60);
@@ -99,36 +101,69 @@ Leak leak_of(const LitRoom& room, const Transform& world_from_room, const Lighti
 }
 
 /// What is around a sealed room.
-enum class Around { Nothing, Ground };
+enum class Around { Nothing, Ground, Panel };
 
 LitRoom sealed_room(const Transform& world_from_room, float thick_cells, Around around) {
     RoomBuilder builder(world_from_room);
     const uint32_t white = builder.material(glm::vec3(0.7f));
-    builder.shell(white, kInner_m, thick_cells * kCell_m);
+    const float thick_m = thick_cells * kCell_m, outer_m = 0.5f * kInner_m + thick_m;
+    builder.shell(white, kInner_m, thick_m);
     if (around == Around::Ground) {
         // A plate that goes on from the floor: the walls stand on one surface that is within and without.
         const float below = -0.5f * kInner_m;
         builder.box(white, {0, below - 0.05f, 0}, {2.0f * kInner_m, 0.1f, 2.0f * kInner_m});
+    } else if (around == Around::Panel) {
+        const uint32_t shining = builder.material(glm::vec3(0.0f), glm::vec3(8.0f));
+        builder.box(shining, {0.1f, outer_m + kAbove_m, 0.1f}, {0.6f, 0.1f, 0.5f});
     }
     const ProbeBox probe = probe_with_cells(kCell_m, 4.0f);
     return LitRoom(builder.take(), {&probe, 1});
 }
 
+/// The worst that leaked into rooms, by what lit them.
+using Worst = std::map<std::string, Leak>;
+
+void note(Worst& worst, const std::string& name, const Leak& leak) {
+    Leak& w = worst[name];
+    w = {std::max(w.patches, leak.patches), std::max(w.patch_mean, leak.patch_mean),
+         std::max(w.pixels, leak.pixels), std::max(w.lost_pixels, leak.lost_pixels)};
+}
+
 /// Checks a room against the bars of the project: a thousandth at half a voxel and thicker, a hundredth at a
 /// quarter.
-void check_sealed(int orientation_index, float thick_cells, Around around) {
+void check_sealed(int orientation_index, float thick_cells, Around around, Worst& worst) {
     const Transform world_from_room = orientation(orientation_index);
     const LitRoom room = sealed_room(world_from_room, thick_cells, around);
     const float bar = thick_cells >= 0.5f ? 1e-3f : 1e-2f;
-    for (const Outside& outside : lights_outside(world_from_room)) {
+    std::vector<Outside> lights = lights_outside(world_from_room, 0.5f * kInner_m + thick_cells * kCell_m);
+    if (around == Around::Panel) {
+        lights.assign(1, {"panel", darkness()});
+    }
+    for (const Outside& outside : lights) {
         const Leak leak = leak_of(room, world_from_room, outside.lighting);
+        note(worst, outside.name, leak);
         CAPTURE(orientation_index);
         CAPTURE(thick_cells);
         CAPTURE(outside.name);
-        CAPTURE(around == Around::Ground);
+        CAPTURE(int(around));
         CHECK(leak.patches <= bar);
         CHECK(leak.pixels <= bar);
         CHECK(leak.lost_pixels <= 0.002f);
+    }
+}
+
+/// All surroundings of rooms with walls of one thickness, turned all 26 ways.
+void check_all_orientations(float thick_cells) {
+    Worst worst;
+    for (int i = 0; i < 26; ++i) {
+        for (Around around : {Around::Nothing, Around::Ground, Around::Panel}) {
+            check_sealed(i, thick_cells, around, worst);
+        }
+    }
+    for (const auto& [name, leak] : worst) {
+        MESSAGE("walls of " << thick_cells << " cells, " << name << ": patch " << leak.patches
+                            << ", patches' mean " << leak.patch_mean << ", pixels' mean " << leak.pixels
+                            << ", pixels without a patch " << leak.lost_pixels);
     }
 }
 
@@ -137,20 +172,27 @@ void check_sealed(int orientation_index, float thick_cells, Around around) {
 TEST_SUITE("servers/radiosity/sealed_room") {
     TEST_CASE(
         "no light comes through the walls of a sealed room that are half or a quarter of a cell thick") {
+        Worst worst;
         for (int i : {4, 7, 20}) {
-            check_sealed(i, 0.5f, Around::Nothing);
-            check_sealed(i, 0.25f, Around::Ground);
+            check_sealed(i, 0.5f, Around::Nothing, worst);
+            check_sealed(i, 0.25f, Around::Ground, worst);
         }
+        check_sealed(11, 0.5f, Around::Panel, worst);
     }
 
-    // For tests/truth/run laws: all 26 orientations and thicknesses, some minutes.
-    TEST_CASE("[slow] no light comes through the walls of a sealed room, however it is turned" *
+    // All 26 orientations of each thickness and kind of light: some minutes. They print the worst of each.
+    TEST_CASE("[slow] no light comes through thick walls of a sealed room, however it is turned" *
               doctest::skip()) {
-        for (int i = 0; i < 26; ++i) {
-            for (float thick_cells : {4.0f, 2.0f, 1.0f, 0.5f, 0.25f}) {
-                check_sealed(i, thick_cells, Around::Nothing);
-                check_sealed(i, thick_cells, Around::Ground);
-            }
+        for (float thick_cells : {4.0f, 2.0f, 1.0f}) {
+            check_all_orientations(thick_cells);
         }
+    }
+    TEST_CASE("[slow] no light comes through walls of half a cell, however the room is turned" *
+              doctest::skip()) {
+        check_all_orientations(0.5f);
+    }
+    TEST_CASE("[slow] no light comes through walls of a quarter of a cell, however the room is turned" *
+              doctest::skip()) {
+        check_all_orientations(0.25f);
     }
 }

@@ -37,16 +37,17 @@ int field_cell(GIProbe probe, int facing, ivec3 cell) {
     return inside && (word & mask) != 0u ? int(words.z + before) : -1;
 }
 
-/// Where a patch lies in its cell, 0..1.
+/// Where a patch is said to lie among those of its cell, 0..1.
 vec3 field_place(uvec2 joint) {
     uint bits = (joint.x >> 27) | (((joint.y >> 27) & 15u) << 5);
     return (vec3(uvec3(bits, bits >> 3, bits >> 6) & 7u) + 0.5) / 8.0;
 }
 
-/// How ill a patch fits a point of its cell: layers of surface differ along the normal.
+/// How ill a patch fits a point of its cell: layers of surface differ along the normal, walls that meet by it.
 float field_distance(vec3 within, vec3 normal, uvec2 joint) {
-    vec3 apart = within - field_place(joint);
-    float rise = dot(apart, normal);
+    bool by_normal = ((joint.y >> 13) & 1u) != 0u;
+    vec3 apart = (by_normal ? 0.5 + 0.5 * normal : within) - field_place(joint);
+    float rise = by_normal ? 0.0 : dot(apart, normal);
     return dot(apart, apart) + 8.0 * rise * rise;
 }
 
@@ -69,7 +70,7 @@ vec4 surface_light(GIProbe probe, vec3 at, vec3 normal) {
     joint = second ? other : joint;
     // Without a patch of its own a point takes what is around it.
     uint goes_on = home_cell >= 0 ? joint.x : 0xFFFFFFFFu;
-    uint slots = home_cell >= 0 ? (joint.y | (second ? 1u << 13 : 0u)) : 0u;
+    uint slots = home_cell >= 0 ? ((joint.y & ~(1u << 13)) | (second ? 1u << 13 : 0u)) : 0u;
     vec3 corner = floor(behind - 0.5);
     vec3 f = behind - 0.5 - corner;
     vec4 sum = vec4(0.0);
