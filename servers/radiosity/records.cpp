@@ -1,5 +1,6 @@
 #include "servers/radiosity/records.h"
 
+#include "servers/radiosity/emitter_tree.h"
 #include "servers/radiosity/emitters.h"
 #include "servers/radiosity/sampling.h"
 
@@ -56,6 +57,11 @@ uint64_t block_of(uint64_t code, int level) noexcept {
     return code >> (3 * level);
 }
 
+/// Differs between neighbours.
+glm::vec2 start_of(const Patches& patches, uint32_t patch) noexcept {
+    return hashed_start(patches.order[patch] * 8 + uint64_t(patches.grid[patch]));
+}
+
 /// A record that is to be, with the rays traced so far.
 struct Draft {
     uint32_t patch = 0;
@@ -91,17 +97,13 @@ public:
         }
         const glm::vec3 normal = patches_.normal[draft.patch];
         const glm::vec3 origin = patches_.position[draft.patch] + kLift * cell_m(draft.patch) * normal;
-        return emitters.light_at(patches_, rays_, origin, normal, draft.fan, start_of(draft.patch).x);
+        return emitters.light_at(patches_, rays_, origin, normal, draft.fan,
+                                 start_of(patches_, draft.patch).x);
     }
 
 private:
     [[nodiscard]] float cell_m(uint32_t patch) const noexcept {
         return patches_.grids[patches_.grid[patch]].cells.cell_m;
-    }
-
-    /// Differs between neighbours.
-    [[nodiscard]] glm::vec2 start_of(uint32_t patch) const noexcept {
-        return hashed_start(patches_.order[patch] * 8 + uint64_t(patches_.grid[patch]));
     }
 
     void place_parts(std::span<const Placed> group, int level, std::vector<Draft>& out) const {
@@ -145,7 +147,7 @@ private:
         const glm::vec3 normal = patches_.normal[draft.patch];
         const glm::vec3 origin = patches_.position[draft.patch] + kLift * cell_m(draft.patch) * normal;
         const CosineFrame frame(normal);
-        const glm::vec2 start = start_of(draft.patch);
+        const glm::vec2 start = start_of(patches_, draft.patch);
         std::vector<Ray> asked;
         for (uint32_t i = from; i < to; ++i) {
             asked.push_back({origin, frame.direction(r2_point(i, start))});
@@ -331,20 +333,40 @@ void finish_links(const Placer& placer, const Patches& patches, std::vector<Draf
     }
 }
 
-/// Light from emitters is free of noise, and steep beside them: a patch that is a record keeps its own.
-void add_emitted_detail(const Patches& patches, Records& records) {
+/// Light straight from emitters is steep beside them and has edges in their shadows: what interpolation makes
+/// of the records' is put right at every patch, once, as emitters do not change. Where too much shines for
+/// that, patches that are records keep their own at least.
+void add_emitted_detail(const StillScene& scene, const RayScene& rays, const Patches& patches,
+                        Records& records) {
     const auto is_dark = [](const glm::vec3& e) { return e == glm::vec3(0.0f); };
-    if (std::all_of(records.emitted.begin(), records.emitted.end(), is_dark)) {
+    const EmitterTree tree(scene, patches);
+    if (tree.empty() && std::all_of(records.emitted.begin(), records.emitted.end(), is_dark)) {
         return;
     }
-    records.emitted_detail.resize(patches.size(), glm::vec3(0.0f));
-    for (size_t r = 0; r < records.patch.size(); ++r) {
-        glm::vec3 detail = records.emitted[r];
-        for (const Records::Share& s : records.of_patch(records.patch[r])) {
-            detail -= s.weight * records.emitted[s.record];
+    const auto interpolated = [&](uint32_t patch) {
+        glm::vec3 sum(0.0f);
+        for (const Records::Share& s : records.of_patch(patch)) {
+            sum += s.weight * records.emitted[s.record];
         }
-        records.emitted_detail[records.patch[r]] = detail;
+        return sum;
+    };
+    records.emitted_detail.resize(patches.size(), glm::vec3(0.0f));
+    if (tree.empty()) {
+        for (size_t r = 0; r < records.patch.size(); ++r) {
+            const uint32_t p = records.patch[r];
+            records.emitted_detail[p] = records.emitted[r] - interpolated(p);
+        }
+        return;
     }
+    parallel_for(patches.size(), 256, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t p = uint32_t(i);
+            const float lift_m = kLift * patches.grids[patches.grid[p]].cells.cell_m;
+            const float start = start_of(patches, p).x;
+            records.emitted_detail[p] =
+                tree.light_at(rays, patches.position[p], patches.normal[p], lift_m, start) - interpolated(p);
+        }
+    });
 }
 
 } // namespace
@@ -376,7 +398,7 @@ Records make_records(const StillScene& scene, const RayScene& rays, const Patche
         records.shares.insert(records.shares.end(), shares.begin(), shares.end());
     }
     records.first.push_back(uint32_t(records.shares.size()));
-    add_emitted_detail(patches, records);
+    add_emitted_detail(scene, rays, patches, records);
     return records;
 }
 
