@@ -1,16 +1,11 @@
 // The engine as a library: builds a room from nodes alone, bakes its probe, and writes pictures of a scripted
 // lamp that swings through it. `scons examples`, then `bin/spinning_lamp [FOLDER]`.
+#include "demo/offscreen_server.h"
 #include "demo/spinning_lamp_scene.h"
 
 #include "scene/3d/world.h"
 #include "scene/main/scene_tree.h"
 #include "scene/register_types.h"
-
-#include "drivers/gl_context.h"
-#include "drivers/gles3/rasterizer_gles3.h"
-
-#include "servers/rasterizer_checked.h"
-#include "servers/visual_server.h"
 
 #include "core/image.h"
 
@@ -22,22 +17,9 @@ namespace {
 
 using namespace cl;
 
-Expected<std::unique_ptr<VisualServer>> make_server() {
-    Expected<std::unique_ptr<drivers::GLContext>> context = drivers::create_offscreen_context();
-    if (!context) {
-        return context.error();
-    }
-    Expected<std::unique_ptr<gles3::RasterizerGLES3>> rasterizer =
-        gles3::RasterizerGLES3::create(std::move(*context));
-    if (!rasterizer) {
-        return rasterizer.error();
-    }
-    return std::make_unique<VisualServer>(std::make_unique<RasterizerChecked>(std::move(*rasterizer)));
-}
-
 Status write_pictures(const std::filesystem::path& folder) {
     scene::register_scene_types(ClassRegistry::instance());
-    Expected<std::unique_ptr<VisualServer>> server = make_server();
+    Expected<std::unique_ptr<VisualServer>> server = demo::make_offscreen_server();
     if (!server) {
         return server.error();
     }

@@ -4,17 +4,12 @@
 // Prints for each GI mode median, percentiles and longest frame, how many took more than 1.5 times the
 // median, and how many relights came in. A frame is a step of the tree and its picture, as a game would run
 // them.
+#include "demo/offscreen_server.h"
 #include "demo/spinning_lamp_scene.h"
 
 #include "scene/3d/world.h"
 #include "scene/main/scene_tree.h"
 #include "scene/register_types.h"
-
-#include "drivers/gl_context.h"
-#include "drivers/gles3/rasterizer_gles3.h"
-
-#include "servers/rasterizer_checked.h"
-#include "servers/visual_server.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,33 +23,19 @@ using namespace cl;
 
 constexpr int kWarmUp = 30;
 
-Expected<std::unique_ptr<VisualServer>> make_server(GIMode mode) {
-    Expected<std::unique_ptr<drivers::GLContext>> context = drivers::create_offscreen_context();
-    if (!context) {
-        return context.error();
-    }
-    Expected<std::unique_ptr<gles3::RasterizerGLES3>> rasterizer =
-        gles3::RasterizerGLES3::create(std::move(*context));
-    if (!rasterizer) {
-        return rasterizer.error();
-    }
-    auto server = std::make_unique<VisualServer>(std::make_unique<RasterizerChecked>(std::move(*rasterizer)));
-    RenderSettings settings;
-    settings.gi_mode = mode;
-    server->set_settings(settings);
-    return server;
-}
-
 struct Paces {
     std::vector<double> frames_ms;
     int relights = 0; ///< that took another time than the one before: two alike count as one
 };
 
 Expected<Paces> run(GIMode mode, int frames) {
-    Expected<std::unique_ptr<VisualServer>> server = make_server(mode);
+    Expected<std::unique_ptr<VisualServer>> server = demo::make_offscreen_server();
     if (!server) {
         return server.error();
     }
+    RenderSettings settings;
+    settings.gi_mode = mode;
+    (*server)->set_settings(settings);
     scene::SceneTree tree(std::move(*server), {.size = {480, 270}});
     std::unique_ptr<scene::Node> room = demo::make_spinning_lamp_scene(scene::GIProbeSubdiv::Cells128);
     if (const auto baked = room->get_node_as<scene::GIProbe>("Probe")->bake(); !baked) {
