@@ -21,16 +21,15 @@ bool sky_reaches(const Transport& t, const Lighting& lighting, uint32_t patch) n
     return grid >= lighting.interior.size() || !lighting.interior[grid];
 }
 
-/// Sum over every `stride`th target.
-Rgb4 sum_over(std::span<const uint32_t> targets, std::span<const Rgb4> radiance, size_t stride) noexcept {
+Rgb4 sum_over(std::span<const uint32_t> targets, std::span<const Rgb4> radiance) noexcept {
     Rgb4 sums[4] = {}; // an addition need not wait for the one before
     size_t i = 0;
-    for (; i + 3 * stride < targets.size(); i += 4 * stride) {
+    for (; i + 4 <= targets.size(); i += 4) {
         for (size_t k = 0; k < 4; ++k) {
-            sums[k] += radiance[targets[i + k * stride]];
+            sums[k] += radiance[targets[i + k]];
         }
     }
-    for (; i < targets.size(); i += stride) {
+    for (; i < targets.size(); ++i) {
         sums[0] += radiance[targets[i]];
     }
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
@@ -52,9 +51,9 @@ std::vector<Rgb4> gather_records(const Transport& t, const Lighting& lighting,
     std::vector<Rgb4> arriving(t.records.patch.size());
     for_all(arriving.size(), [&](size_t r) {
         const Links::Point& point = t.records.links.points[r];
-        Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving, 1);
+        Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving);
         if (sky_reaches(t, lighting, t.records.patch[r])) {
-            sum += sum_over(t.records.links.skies_of(point), sky, 1);
+            sum += sum_over(t.records.links.skies_of(point), sky);
         }
         arriving[r] =
             rgb4(t.records.emitted[r]) + sum * gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
@@ -64,14 +63,10 @@ std::vector<Rgb4> gather_records(const Transport& t, const Lighting& lighting,
 
 void add_bounce(const Transport& t, std::span<const Rgb4> leaving, std::span<const Rgb4> first,
                 std::span<Rgb4> arriving) {
-    constexpr size_t kSomeLinks = 256;
     for_all(arriving.size(), [&](size_t r) {
         const Links::Point& point = t.records.links.points[r];
-        const std::span<const uint32_t> targets = t.records.links.patches_of(point);
-        const size_t stride = std::max<size_t>((targets.size() + kSomeLinks - 1) / kSomeLinks, 1);
-        const size_t count = std::max<size_t>((targets.size() + stride - 1) / stride, 1);
-        const float weight = float(targets.size()) / (float(count) * float(std::max(point.ray_count, 1u)));
-        arriving[r] = first[r] + sum_over(targets, leaving, stride) * gi::splat(weight);
+        const Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving);
+        arriving[r] = first[r] + sum * gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
     });
 }
 

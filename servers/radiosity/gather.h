@@ -28,9 +28,8 @@ using Rgb4 = gi::float4;
 [[nodiscard]] std::vector<Rgb4> gather_records(const Transport& transport, const Lighting& lighting,
                                                std::span<const Rgb4> leaving);
 
-/// Adds light that surfaces send on to what each record has: arriving = first + gathered by some of its
-/// links.
-/// @param leaving  radiance that each patch sends on; smooth
+/// One more bounce, by way of patches: arriving = first + what the links gather.
+/// @param leaving  radiance that each patch sends on of light that has bounced
 void add_bounce(const Transport& transport, std::span<const Rgb4> leaving, std::span<const Rgb4> first,
                 std::span<Rgb4> arriving);
 

@@ -1,5 +1,6 @@
 #include "servers/radiosity/solver.h"
 
+#include "servers/radiosity/bounces.h"
 #include "servers/radiosity/gather.h"
 
 #include "core/threads.h"
@@ -15,9 +16,6 @@
 namespace cl::radiosity {
 namespace {
 
-constexpr int kMaxBounces = 96;
-constexpr float kTolerance = 1e-3f;
-
 template <typename F>
 void for_all(size_t count, const F& f) {
     parallel_for(count, 512, [&](size_t begin, size_t end) {
@@ -25,54 +23,6 @@ void for_all(size_t count, const F& f) {
             f(i);
         }
     });
-}
-
-float largest(const glm::vec3& v) noexcept {
-    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
-}
-
-struct Progress {
-    double change = 0.0, total = 0.0; ///< sums over records of the largest channel
-};
-Progress compare(std::span<const Rgb4> before, std::span<const Rgb4> after) noexcept {
-    Progress p;
-    for (size_t r = 0; r < after.size(); ++r) {
-        const Rgb4 d = after[r] - before[r], v = after[r];
-        p.change += double(largest(rgb(d)));
-        p.total += double(largest(rgb(v)));
-    }
-    return p;
-}
-
-/// Sums the bounces after the first: the fixed point of step_bounce(), to which plain iteration converges as
-/// albedos stay below 1. Every fourth step goes as far as the changes' ratio says that all later ones would
-/// add up to (Aitken's extrapolation), which saves bright rooms most of their bounces.
-int bounce(const Transport& t, std::span<const Rgb4> first, std::vector<Rgb4>& now,
-           const std::atomic<bool>& stop) {
-    std::vector<Rgb4> next(now.size());
-    double last_change = 0.0;
-    int n = 1;
-    for (; n <= kMaxBounces && !stop; ++n) {
-        step_bounce(t, first, now, next);
-        const Progress p = compare(now, next);
-        const double ratio = last_change > 0.0 ? std::min(p.change / last_change, 0.98) : 0.0;
-        // What is still missing is this change times ratio / (1 - ratio).
-        const bool done = p.change * ratio <= double(kTolerance) * p.total * (1.0 - ratio) && n > 2;
-        if (n % 4 == 0 && !done) {
-            const Rgb4 ahead = gi::splat(float(ratio / (1.0 - ratio)));
-            for (size_t r = 0; r < next.size(); ++r) {
-                next[r] += ahead * (next[r] - now[r]);
-            }
-            last_change = 0.0; // the ratio of changes across a leap says nothing
-        } else {
-            last_change = p.change;
-        }
-        now.swap(next);
-        if (done || p.total == 0.0) {
-            break;
-        }
-    }
-    return n;
 }
 
 /// b^e, without the call for the usual exponent.
@@ -191,10 +141,9 @@ Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<b
     Solution s;
     DirectCache fresh;
     const std::vector<glm::vec3> direct = (cache ? *cache : fresh).gather(t, lighting.sources);
-    // Light straight from sources has edges: all links gather it, once. What bounced is smooth: some do.
     const std::vector<Rgb4> first = gather_records(t, lighting, sent_on(t, direct, {}));
-    std::vector<Rgb4> arriving = first;
-    s.bounces = bounce(t, first, arriving, stop);
+    std::vector<Rgb4> arriving;
+    s.bounces = sum_bounces(t, first, stop, arriving);
     // The last bounce again, from patches instead of records: what is seen has the detail.
     add_bounce(t, sent_on(t, {}, at_patches(t, arriving)), first, arriving);
     const std::vector<Rgb4> seen = at_patches(t, arriving);

@@ -1,5 +1,7 @@
 #include "servers/radiosity/transport.h"
 
+#include "servers/radiosity/sampling.h"
+
 #include "core/threads.h"
 
 #include <algorithm>
@@ -70,24 +72,37 @@ std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeB
     return grids;
 }
 
-/// The record that stands for a patch: its heaviest.
-uint32_t main_record(const Records& records, uint32_t patch) noexcept {
-    const auto shares = records.of_patch(patch);
-    const auto heaviest = std::max_element(shares.begin(), shares.end(),
-                                           [](const auto& a, const auto& b) { return a.weight < b.weight; });
-    return heaviest == shares.end() ? kNoPatch : heaviest->record;
+/// One of the records that a patch interpolates, each with the odds of its weight: over many links that is
+/// the interpolation. The heaviest instead would make light steeper, and a bright corridor brighter by a
+/// fifth.
+/// @param odds  0 to 1
+uint32_t drawn_record(const Records& records, uint32_t patch, float odds) noexcept {
+    uint32_t drawn = kNoPatch;
+    for (const Records::Share& share : records.of_patch(patch)) {
+        drawn = share.record;
+        odds -= share.weight;
+        if (odds < 0.0f) {
+            break;
+        }
+    }
+    return drawn;
 }
 
 /// Later bounces are smooth: a few hundred of a point's links, evenly chosen, stand for all.
-std::vector<Transport::Exchange> exchanges_of(const Transport& t, const Links::Point& point) {
+std::vector<Transport::Exchange> exchanges_of(const Transport& t, size_t record_number) {
+    const Links::Point& point = t.records.links.points[record_number];
+    const glm::vec2 start = hashed_start(record_number);
     constexpr size_t kMostLinks = 96;
     const std::span<const uint32_t> links = t.records.links.patches_of(point);
-    const size_t stride = (links.size() + kMostLinks - 1) / kMostLinks;
-    const size_t asked = stride > 0 ? (links.size() + stride - 1) / stride : 0;
+    const size_t asked = std::min(links.size(), kMostLinks);
     std::vector<Transport::Exchange> out;
     for (size_t i = 0; i < asked; ++i) {
-        const uint32_t patch = links[i * stride];
-        const uint32_t record = main_record(t.records, patch);
+        // Anywhere in each of as many parts of the list: it is sorted, and its parts' first would all lie to
+        // one side of what they stand for.
+        const glm::vec2 odds = r2_point(uint32_t(i), start);
+        const size_t link = size_t((float(i) + odds.x) * float(links.size()) / float(asked));
+        const uint32_t patch = links[std::min(link, links.size() - 1)];
+        const uint32_t record = drawn_record(t.records, patch, odds.y);
         if (record != kNoPatch) {
             const float weight = float(links.size()) / (float(asked) * float(point.ray_count));
             out.push_back({t.patches.albedo[patch] * weight, record});
@@ -112,7 +127,7 @@ void add_exchanges(Transport& t) {
     std::vector<std::vector<Transport::Exchange>> found(points.size());
     parallel_for(points.size(), 64, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
-            found[r] = exchanges_of(t, points[r]);
+            found[r] = exchanges_of(t, r);
         }
     });
     for (const std::vector<Transport::Exchange>& list : found) {

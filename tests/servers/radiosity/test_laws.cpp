@@ -103,6 +103,60 @@ TEST_SUITE("servers/radiosity/laws") {
         }
     }
 
+    TEST_CASE("in a closed room of coloured walls each channel bounces until all its light is there") {
+        RoomBuilder builder;
+        const glm::vec3 albedo(0.9f, 0.5f, 0.1f);
+        builder.shell(builder.material(albedo, glm::vec3(0.5f)), kRoom_m, 0.2f);
+        const ProbeBox probe = probe_with_cells(0.1f, 2.4f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        const Solution solution = room.solve(darkness());
+        const std::vector<PixelLight> pixels =
+            pixel_lights(room, 0, solution, points_inside({}, kRoom_m, 30));
+        glm::vec3 mean(0.0f);
+        for (const PixelLight& pixel : pixels) {
+            mean += pixel.light / float(pixels.size());
+        }
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(c);
+            CHECK(mean[c] == doctest::Approx(0.5f / (1.0f - albedo[c])).epsilon(0.02));
+        }
+    }
+
+    TEST_CASE("down a long white corridor light bounces until no more bounces would add to it") {
+        RoomBuilder builder;
+        const uint32_t white = builder.material(glm::vec3(0.85f)), red = builder.material({0.8f, 0.4f, 0.2f});
+        for (float side : {-1.0f, 1.0f}) {
+            builder.box(white, {0, 0.3f * side, 0}, {5.0f, 0.1f, 0.7f});
+            builder.box(white, {0, 0, 0.3f * side}, {5.0f, 0.5f, 0.1f});
+            builder.box(side < 0 ? red : white, {2.4f * side, 0, 0}, {0.1f, 0.5f, 0.5f});
+        }
+        const ProbeBox probe = probe_with_cells(0.05f, 1.0f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        Lighting lighting = darkness();
+        lighting.sources = {omni_source({-2.0f, 0.0f, 0.0f}, 1.0f)};
+        const Solution once = room.solve(lighting);
+        // Light adds up: what the far half has must be what it gets from all that its surroundings send out.
+        const Transport& t = *room.transport;
+        glm::dvec3 error(0.0), sum(0.0);
+        for (size_t r = 0; r < t.records.patch.size(); ++r) {
+            const Links::Point& point = t.records.links.points[r];
+            const uint32_t p = t.records.patch[r];
+            if (t.patches.position[p].x < 0.0f || point.ray_count == 0) {
+                continue;
+            }
+            glm::dvec3 gathered(0.0);
+            for (uint32_t target : t.records.links.patches_of(point)) {
+                gathered += once.leaving[target] / float(point.ray_count);
+            }
+            error += gathered - glm::dvec3(once.arriving[p]);
+            sum += gathered;
+        }
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(c);
+            CHECK(error[c] / sum[c] == doctest::Approx(0.0).epsilon(0.01));
+        }
+    }
+
     TEST_CASE("interior probes get nothing from the sky") {
         RoomBuilder builder;
         builder.ball(builder.material(glm::vec3(0.8f)), glm::vec3(0.0f), 0.5f);
