@@ -7,11 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 
 namespace cl::radiosity {
 namespace {
+
+/// Reorders what it is given.
+float median(std::span<float> values) noexcept {
+    const auto middle = values.begin() + ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 /// What a few rays from a point of a surface meet.
 struct Outlook {
@@ -36,28 +44,24 @@ Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float c
         outlook.backs += !one_place && back_m < front_m ? 1 : 0;
         distances_m[i] = nearest_m;
     }
-    const auto middle = distances_m.begin() + kCount / 2;
-    std::nth_element(distances_m.begin(), middle, distances_m.end());
-    outlook.openness_m = *middle;
+    outlook.openness_m = median(distances_m);
     return outlook;
 }
 
-/// The harmonic mean of what some rays meet, if all of it shows its front.
-std::optional<float> open_on_all_sides(const RayScene& rays, std::span<const Ray> asked) noexcept {
-    std::array<Hit, 8> hits;
-    const std::span<Hit> met = std::span(hits).first(asked.size());
-    rays.trace(asked, met);
-    float inverse_sum = 0.0f;
-    for (const Hit& hit : met) {
-        if (hit.triangle == kMiss) {
-            continue;
-        }
-        if (!hit.is_front) {
+/// The median of the distances to what some rays meet, if all of it shows its front.
+template <size_t kCount>
+std::optional<float> open_on_all_sides(const RayScene& rays, const std::array<Ray, kCount>& asked) noexcept {
+    std::array<Hit, kCount> hits;
+    rays.trace(asked, hits);
+    std::array<float, kCount> distances_m;
+    for (size_t i = 0; i < kCount; ++i) {
+        const bool missed = hits[i].triangle == kMiss;
+        if (!missed && !hits[i].is_front) {
             return std::nullopt;
         }
-        inverse_sum += 1.0f / std::max(hit.t, 1e-6f);
+        distances_m[i] = missed ? 1e30f : hits[i].t;
     }
-    return inverse_sum > 0.0f ? float(asked.size()) / inverse_sum : 1e30f;
+    return median(distances_m);
 }
 
 } // namespace
