@@ -1,20 +1,11 @@
 #include "servers/radiosity/gather.h"
 
-#include "core/threads.h"
+#include "servers/radiosity/for_all.h"
 
 #include <algorithm>
 
 namespace cl::radiosity {
 namespace {
-
-template <typename F>
-void for_all(size_t count, const F& f) {
-    parallel_for(count, 512, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            f(i);
-        }
-    });
-}
 
 bool sky_reaches(const Transport& t, const Lighting& lighting, uint32_t patch) noexcept {
     const uint8_t grid = t.patches.grid[patch];

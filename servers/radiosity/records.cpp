@@ -323,7 +323,8 @@ void finish_links(const Placer& placer, const Patches& patches, std::vector<Draf
     parallel_for(drafts.size(), 16, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             records.emitted[i] = placer.finish(drafts[i], share, emitters);
-            // In the order of memory a relight reads them faster, and every nth of them is spread evenly.
+            // In the order of memory: a relight reads them faster, and parts of the list are parts of the
+            // scene.
             std::sort(drafts[i].fan.patches.begin(), drafts[i].fan.patches.end());
         }
     });

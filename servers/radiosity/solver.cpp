@@ -1,6 +1,7 @@
 #include "servers/radiosity/solver.h"
 
 #include "servers/radiosity/bounces.h"
+#include "servers/radiosity/for_all.h"
 #include "servers/radiosity/gather.h"
 
 #include "core/threads.h"
@@ -15,15 +16,6 @@
 
 namespace cl::radiosity {
 namespace {
-
-template <typename F>
-void for_all(size_t count, const F& f) {
-    parallel_for(count, 512, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            f(i);
-        }
-    });
-}
 
 /// b^e, without the call for the usual exponent.
 float power(float base, float exponent) noexcept {
