@@ -121,6 +121,7 @@ struct Frame {
     GIMode gi_mode = GIMode::Cones;
     Quality quality = Quality::High;
     int shadow_filter = 1; ///< 0 nearest, 1 PCF5, 2 PCF13 (project setting)
+    ShadowFit shadow_fit = ShadowFit::AsSet;
     int shadow_atlas_size = 4096, directional_shadow_size = 4096; ///< [texels] (project settings)
 };
 

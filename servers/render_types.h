@@ -208,6 +208,11 @@ struct SkyDesc {
 /// How indirect light is found. Cones: per pixel, as Godot 3.2 does. Auto: radiosity on the surfaces in the
 /// probes' boxes (servers/radiosity).
 enum class GIMode : uint8_t { Off, Cones, Auto };
+/// What keeps surfaces from shading themselves by the coarseness of their shadow map.
+enum class ShadowFit : uint8_t {
+    AsSet,   ///< the biases of the lights [m] and Godot's wide fit to the view
+    ByTexel, ///< look-ups step off the surface by what the filter reaches: right at any scale, no knobs
+};
 enum class Quality : uint8_t { Low, High };
 
 /// A probe's shading parameters, read live each frame (spec gi-shading section 2).

@@ -55,7 +55,7 @@ void place_tile(DirectionalSplit& split, int index, int count) noexcept {
 /// vertical one, and then widens that by the aspect ratio again. Found from the size and place of shadow
 /// texels in its pictures (orthogonal, 2 and 4 splits), which this makes equal. In upright pictures its fit
 /// is too narrow and loses shadows: there, departed from.
-float fit_widening(const CameraDesc& camera, glm::ivec2 frame_size) noexcept {
+float godots_widening(const CameraDesc& camera, glm::ivec2 frame_size) noexcept {
     const float aspect = static_cast<float>(frame_size.x) / static_cast<float>(std::max(frame_size.y, 1));
     return camera.projection == Projection::Perspective ? std::max(aspect, 1.0f) : 1.0f;
 }
@@ -97,6 +97,82 @@ void fit_optimized(DirectionalSplit& split, const std::array<glm::vec3, 8>& corn
     split.high_m = high + margin;
 }
 
+/// Bounds of all casters as the light sees them: tighter than those of the box around them all.
+AABB casters_seen(const LightItem& light, const Transform& light_from_world) noexcept {
+    AABB bounds = transformed(light_from_world, light.casters[0].world_bounds);
+    for (const CasterItem& caster : light.casters.subspan(1)) {
+        bounds = bounds.merged(transformed(light_from_world, caster.world_bounds));
+    }
+    return bounds;
+}
+
+/// Where a split spans more than the casters do, it spans the casters. That does not depend on the camera, so
+/// edges do not crawl; what is beyond reads the empty margin and is lit.
+void shrink_to(DirectionalSplit& split, const AABB& casters, float texels) noexcept {
+    constexpr float kMargin = 4.0f; // the filter's reach and one more [texels]
+    const float widening = texels / std::max(texels - 2.0f * kMargin, 1.0f);
+    split.spans_casters = true;
+    for (int axis = 0; axis < 2; ++axis) {
+        const float span_m = split.high_m[axis] - split.low_m[axis];
+        const float needed_m = std::max(casters.size[axis] * widening, span_m / texels);
+        split.spans_casters = split.spans_casters && needed_m <= span_m;
+        if (needed_m <= span_m) {
+            const float center_m = casters.position[axis] + 0.5f * casters.size[axis];
+            split.low_m[axis] = center_m - 0.5f * needed_m;
+            split.high_m[axis] = center_m + 0.5f * needed_m;
+        }
+    }
+}
+
+/// The first `count` splits, the last of them up to `end_m`.
+SplitRange shortened(SplitRange range, int count, float end_m) noexcept {
+    range.count = count;
+    range.at_m[static_cast<size_t>(count)] = end_m;
+    return range;
+}
+
+/// Everything but where the shadow fades.
+DirectionalShadow fit_splits(const LightItem& item, const Frame& frame, glm::ivec2 area_texels,
+                             const SplitRange& range) noexcept {
+    const LightDesc& light = *item.desc;
+    DirectionalShadow out;
+    out.light_from_world = {glm::transpose(item.world_from_light.basis), glm::vec3(0.0f)};
+    out.count = range.count;
+    const bool is_tight = frame.shadow_fit == ShadowFit::ByTexel && !item.casters.empty();
+    const AABB casters = is_tight ? casters_seen(item, out.light_from_world)
+                                  : transformed(out.light_from_world, frame.casters_bounds);
+    const Transform light_from_view = out.light_from_world * frame.camera.world_from_camera;
+    const float widening = is_tight ? 1.0f : godots_widening(frame.camera, frame.size);
+    float first_radius = 1.0f;
+    for (int i = 0; i < range.count; ++i) {
+        DirectionalSplit& split = out.splits[static_cast<size_t>(i)];
+        split.begin_m = range.at_m[static_cast<size_t>(i)];
+        split.end_m = range.at_m[static_cast<size_t>(i) + 1];
+        place_tile(split, i, range.count);
+        std::array<glm::vec3, 8> corners = view_corners(frame.camera, frame.size, split.begin_m, split.end_m);
+        for (glm::vec3& c : corners) {
+            c = light_from_view.xform(c * glm::vec3(widening, widening, 1.0f));
+        }
+        const Sphere sphere = sphere_around(corners);
+        // A tile that is not square is measured by its height on both axes.
+        const float texels = static_cast<float>(area_texels.y) * split.tile_size.y;
+        if (light.directional_depth_range == DirectionalDepthRange::Stable) {
+            fit_stable(split, sphere, texels);
+        } else {
+            fit_optimized(split, corners, texels);
+        }
+        if (is_tight) {
+            shrink_to(split, casters, texels);
+        }
+        split.high_m.z = std::max(split.high_m.z, casters.end().z) + 0.001f;
+        first_radius = i == 0 ? sphere.radius : first_radius;
+        const float scale = glm::mix(1.0f, sphere.radius / first_radius, light.directional_bias_split_scale);
+        split.bias =
+            shadow_bias(frame, glm::vec2(light.shadow_bias_m, light.directional_normal_bias) * scale);
+    }
+    return out;
+}
+
 } // namespace
 
 glm::mat4 DirectionalShadow::clip_from_light(int i) const noexcept {
@@ -129,43 +205,22 @@ std::array<glm::vec3, 8> view_corners(const CameraDesc& camera, glm::ivec2 frame
     return out;
 }
 
-DirectionalShadow fit_directional_shadow(const LightDesc& light, const Transform& world_from_light,
-                                         const CameraDesc& camera, glm::ivec2 frame_size,
-                                         glm::ivec2 area_texels, const AABB& casters_bounds) noexcept {
-    DirectionalShadow out;
-    out.light_from_world = {glm::transpose(world_from_light.basis), glm::vec3(0.0f)};
-    const SplitRange range = split_range(light, camera);
-    out.count = range.count;
-    const AABB casters = transformed(out.light_from_world, casters_bounds);
-    const Transform light_from_view = out.light_from_world * camera.world_from_camera;
-    const float widening = fit_widening(camera, frame_size);
-    float first_radius = 1.0f;
-    for (int i = 0; i < range.count; ++i) {
-        DirectionalSplit& split = out.splits[static_cast<size_t>(i)];
-        split.begin_m = range.at_m[static_cast<size_t>(i)];
-        split.end_m = range.at_m[static_cast<size_t>(i) + 1];
-        place_tile(split, i, range.count);
-        std::array<glm::vec3, 8> corners = view_corners(camera, frame_size, split.begin_m, split.end_m);
-        for (glm::vec3& c : corners) {
-            c = light_from_view.xform(c * glm::vec3(widening, widening, 1.0f));
-        }
-        const Sphere sphere = sphere_around(corners);
-        // A tile that is not square is measured by its height on both axes.
-        const float texels = static_cast<float>(area_texels.y) * split.tile_size.y;
-        if (light.directional_depth_range == DirectionalDepthRange::Stable) {
-            fit_stable(split, sphere, texels);
-        } else {
-            fit_optimized(split, corners, texels);
-        }
-        split.high_m.z = std::max(split.high_m.z, casters.end().z) + 0.001f;
-        first_radius = i == 0 ? sphere.radius : first_radius;
-        const float scale = glm::mix(1.0f, sphere.radius / first_radius, light.directional_bias_split_scale);
-        split.bias_m = glm::vec2(light.shadow_bias_m, light.directional_normal_bias) * scale;
-    }
-    const DirectionalSplit& last = out.splits[static_cast<size_t>(range.count) - 1];
+DirectionalShadow fit_directional_shadow(const LightItem& light, const Frame& frame,
+                                         glm::ivec2 area_texels) noexcept {
+    const SplitRange range = split_range(*light.desc, frame.camera);
+    DirectionalShadow out = fit_splits(light, frame, area_texels, range);
     const bool fades = range.count > 1;
-    out.fade_begin_m = fades ? last.begin_m : last.end_m * 2.0f;
-    out.fade_end_m = fades ? last.end_m : last.end_m * 3.0f;
+    out.fade_begin_m = range.at_m[static_cast<size_t>(range.count) - (fades ? 1 : 0)] * (fades ? 1.0f : 2.0f);
+    out.fade_end_m = range.at_m[static_cast<size_t>(range.count)] * (fades ? 1.0f : 3.0f);
+    for (int i = 0; i < out.count; ++i) {
+        if (out.splits[static_cast<size_t>(i)].spans_casters) {
+            // It serves as far as can be seen; those after it would only make it coarser.
+            const float end_m = std::max(frame.camera.far_m, range.at_m[static_cast<size_t>(range.count)]);
+            out = fit_splits(light, frame, area_texels, shortened(range, i + 1, end_m));
+            out.fade_begin_m = end_m * 2.0f;
+            out.fade_end_m = end_m * 3.0f;
+        }
+    }
     return out;
 }
 

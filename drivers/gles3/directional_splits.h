@@ -1,8 +1,9 @@
 #pragma once
 
-#include "servers/render_types.h"
+#include "drivers/gles3/shadow_bias.h"
 
-#include "core/math/aabb.h"
+#include "servers/rasterizer.h"
+
 #include "core/math/transform.h"
 
 #include <glm/mat4x4.hpp>
@@ -21,7 +22,8 @@ struct DirectionalSplit {
     glm::vec3 low_m{0.0f},
         high_m{0.0f}; ///< box in light space: x, y as the map spans them, z = depths 1 and 0
     glm::vec2 tile{0.0f}, tile_size{1.0f}; ///< its part of the light's area, 0..1
-    glm::vec2 bias_m{0.0f};                ///< everywhere, and where a caster is parallel to the light's rays
+    ShadowBias bias;
+    bool spans_casters = false; ///< ShadowFit::ByTexel: no caster is outside of it
     friend bool operator==(const DirectionalSplit&, const DirectionalSplit&) = default;
 };
 
@@ -43,11 +45,10 @@ struct DirectionalShadow {
 /// Splits the camera's shadow range and fits a box of light space to each part (spec scene-classes section
 /// 9). Stable depth range: a sphere around the part, moved in whole texels only, so that shadow edges do not
 /// crawl when the camera moves; optimized: the part's own bounds.
-/// @param area_texels     size of the light's area of the shadow map
-/// @param casters_bounds  world bounds of the casters: what is nearer to the light is not cut off
-[[nodiscard]] DirectionalShadow
-fit_directional_shadow(const LightDesc& light, const Transform& world_from_light, const CameraDesc& camera,
-                       glm::ivec2 frame_size, glm::ivec2 area_texels, const AABB& casters_bounds) noexcept;
+/// @param frame        its camera, size, casters and settings; casters nearer to the light are not cut off
+/// @param area_texels  size of the light's area of the shadow map
+[[nodiscard]] DirectionalShadow fit_directional_shadow(const LightItem& light, const Frame& frame,
+                                                       glm::ivec2 area_texels) noexcept;
 
 /// Part `index` of a shadow map that `count` lights share: halves for 2, quarters for up to 4, and so on.
 /// @return position and size, 0..1

@@ -95,6 +95,7 @@ void set_directional_shadow(shaders::DirectionalLight& out, const PlacedDirectio
     out.splits = shadow.count;
     out.fade_begin = shadow.fade_begin_m;
     out.fade_end = shadow.fade_end_m;
+    out.shadow_step = shadow.splits[0].bias.step_texels;
     for (int i = 0; i < kMaxSplits && shadow.count > 0; ++i) {
         // A shadow of fewer splits repeats its last.
         const DirectionalSplit& s = shadow.splits[static_cast<size_t>(std::min(i, shadow.count - 1))];
@@ -102,6 +103,9 @@ void set_directional_shadow(shaders::DirectionalLight& out, const PlacedDirectio
         const glm::vec2 scale = placed.area.size * s.tile_size / glm::vec2(size);
         const glm::vec2 corner = placed.area.position + placed.area.size * s.tile;
         out.split_uv[static_cast<size_t>(i)] = glm::vec4(scale, corner - glm::vec2(s.low_m) * scale);
+        const glm::vec2 half_texel = glm::vec2(0.5f / static_cast<float>(placed.map_size));
+        out.split_limits[static_cast<size_t>(i)] =
+            glm::vec4(corner + half_texel, corner + placed.area.size * s.tile_size - half_texel);
         out.split_depth[static_cast<size_t>(i)] =
             glm::vec4(-1.0f / size.z, s.high_m.z / size.z, s.end_m, s.begin_m);
     }

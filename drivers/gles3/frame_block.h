@@ -26,6 +26,7 @@ struct FrameFeatures {
 struct PlacedDirectionalShadow {
     DirectionalShadow shadow; ///< count 0: none
     MapArea area;
+    int map_size = 1; ///< of the texture that the area is part of [texels]
 };
 
 /// Fills the Frame block. @param shadows  one per directional light of the frame

@@ -96,6 +96,7 @@ void FrameBuilder::clear(const View& view, const RenderSettings& settings) {
     frame_.gi_mode = settings.gi_mode;
     frame_.quality = settings.quality;
     frame_.shadow_filter = settings.shadow_filter;
+    frame_.shadow_fit = settings.gi_mode == GIMode::Auto ? ShadowFit::ByTexel : ShadowFit::AsSet;
     frame_.shadow_atlas_size = settings.shadow_atlas_size;
     frame_.directional_shadow_size = settings.directional_shadow_size;
 }

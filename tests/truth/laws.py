@@ -20,21 +20,15 @@ from make_scenes import cornell
 from scene_text import Scene, rotation
 
 VOXEL, INNER = .1, 2.0  # of the sealed rooms [m]: 128 voxels are 12.8 m
-LAMPS = ("omni", "spot", "sun")
-LIGHTS = (*LAMPS, "sky", "panel")
+LIGHTS = ("omni", "spot", "sun", "sky", "panel")
 
 
 def draw(program, folder, scene, *options):
     """Linear radiance of a scene; gi auto."""
     path, out = Path(folder) / "scene.tscn", Path(folder) / "out.exr"
     path.write_text(scene.text(), encoding="utf-8")
-    program.render(path, [out], *(() if "--gi" in options else ("--gi", "auto")), *options)
+    program.render(path, [out], "--gi", "auto", *options)
     return pictures.load(out)
-
-
-def draw_indirect(program, folder, scene):
-    """What global illumination adds. Lamps' shadow maps have their own errors: bias is in metres, as Godot's."""
-    return draw(program, folder, scene) - draw(program, folder, scene, "--gi", "off")
 
 
 def orientations(count):
@@ -73,24 +67,23 @@ def room(basis, thick_voxels, light, camera):
 
 
 def sealed(program, folder, args):
-    """Mean radiance seen inside over that seen on the room from outside. Of lamps the indirect part: the sun's shadow
-    map lets light in by its bias of 0.1 m, which is a voxel here."""
+    """Mean radiance seen inside over that seen on the room from outside."""
     for thick in (4, 2, 1, .5, .25):
         bar = 1e-3 if thick >= .5 else 1e-2
         for light in LIGHTS:
             outside = pictures.luminance(draw(program, folder, room(np.eye(3), thick, light, "outside"))).mean()
             worst = 0
             for basis in orientations(args.orientations):
-                inside = (draw_indirect if light in LAMPS else draw)(program, folder, room(basis, thick, light, "inside"))
+                inside = draw(program, folder, room(basis, thick, light, "inside"))
                 worst = max(worst, pictures.luminance(np.abs(inside)).mean() / outside)
             yield f"sealed room, walls of {thick} voxels, {light}", worst, bar
 
 
 def placed(program, folder, _):
-    """Mean luminance of one scene's indirect light however it is placed, its own probe with it."""
+    """Mean luminance of one scene however it is placed, its own probe with it."""
     def mean(basis, origin=(0, 0, 0)):
         world = np.asarray(basis, float), np.array(origin, float)
-        return pictures.luminance(draw_indirect(program, folder, cornell(world))).mean()
+        return pictures.luminance(draw(program, folder, cornell(world))).mean()
     expected = mean(np.eye(3))
     for name, basis, origin in (("turned", rotation(30, 20, 10), (0, 0, 0)), ("turned over", rotation(110, 160, 45), (0, 0, 0)),
                                 ("mirrored", np.diag([-1, 1, 1]), (0, 0, 0)), ("moved", np.eye(3), (210, -70, 33)),

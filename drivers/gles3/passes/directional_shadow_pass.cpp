@@ -50,7 +50,8 @@ Status DirectionalShadowPass::draw_light(const LightItem& light, const Drawn& no
     for (int i = 0; i < now.shadow.count; ++i) {
         const DirectionalSplit& split = now.shadow.splits[static_cast<size_t>(i)];
         pass.set_viewport(texels_of({split.tile, split.tile_size}, now.area));
-        const CasterView view{now.shadow.light_from_world, now.shadow.clip_from_light(i), split.bias_m};
+        const CasterView view{now.shadow.light_from_world, now.shadow.clip_from_light(i),
+                              split.bias.caster_m};
         if (Status s = casters.draw(pass, light, view, resources); !s) {
             return s;
         }
@@ -80,9 +81,9 @@ DirectionalShadowPass::draw(const Frame& frame, const Resources& resources, Cast
             continue;
         }
         placed[i].area = directional_area(static_cast<int>(drawn.size()), with_shadow);
+        placed[i].map_size = size;
         const gl::Rect area = texels_of(placed[i].area, {glm::ivec2(0), glm::ivec2(size)});
-        placed[i].shadow = fit_directional_shadow(*light.desc, light.world_from_light, frame.camera,
-                                                  frame.size, area.size, frame.casters_bounds);
+        placed[i].shadow = fit_directional_shadow(light, frame, area.size);
         const Drawn now{light.key, area, placed[i].shadow, light.casters_version,
                         light.desc->shadow_reverse_cull_face};
         if (std::find(drawn_.begin(), drawn_.end(), now) == drawn_.end()) {

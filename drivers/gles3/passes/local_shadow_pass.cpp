@@ -14,8 +14,6 @@ namespace cl::gles3 {
 
 namespace {
 
-constexpr int kMaxFace = 512; ///< edge of an omni's cube face [texels]
-constexpr int kMinFace = 16;
 constexpr gl::SamplerDesc kCompareSampler{.filter = gl::Filter::Linear, .compare = gl::Compare::LessEqual};
 
 bool casts_local_shadow(const LightItem& light) noexcept {
@@ -117,13 +115,14 @@ Expected<const LocalShadowPass::Cube*> LocalShadowPass::cube_of(int size) {
     return static_cast<const Cube*>(&cubes_.emplace(size, std::move(cube)).first->second);
 }
 
-Status LocalShadowPass::draw_spot(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+Status LocalShadowPass::draw_spot(const LightItem& light, const Drawn& now, const Resources& resources,
                                   CasterDraw& casters) {
-    gl::Pass pass(
-        {.label = "spot shadow", .target = &atlas_->framebuffer, .viewport = rect, .depth = gl::Load::Clear});
-    const CasterView view{light.world_from_light.inverse(),
-                          spot_clip_from_light(*light.desc),
-                          {light.desc->shadow_bias_m, 0.0f}};
+    gl::Pass pass({.label = "spot shadow",
+                   .target = &atlas_->framebuffer,
+                   .viewport = now.rect,
+                   .depth = gl::Load::Clear});
+    const CasterView view{light.world_from_light.inverse(), spot_clip_from_light(*light.desc),
+                          now.bias.caster_m};
     return casters.draw(pass, light, view, resources);
 }
 
@@ -137,10 +136,10 @@ Status LocalShadowPass::draw_face(const LightItem& light, const gl::Framebuffer&
     return casters.draw(pass, light, view, resources);
 }
 
-Status LocalShadowPass::draw_omni(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+Status LocalShadowPass::draw_omni(const LightItem& light, const Drawn& now, const Resources& resources,
                                   CasterDraw& casters) {
     using S = shaders::OmniParaboloid;
-    const Expected<const Cube*> cube = cube_of(std::clamp(rect.size.x / 2, kMinFace, kMaxFace));
+    const Expected<const Cube*> cube = cube_of(omni_face_size(now.rect.size.x));
     if (!cube) {
         return cube.error();
     }
@@ -155,10 +154,10 @@ Status LocalShadowPass::draw_omni(const LightItem& light, const gl::Rect& rect, 
         return program.error();
     }
     (*program)->set(S::near_far, glm::vec2(kLocalShadowNear, light.desc->range_m));
-    (*program)->set(S::bias, light.desc->shadow_bias_m);
+    (*program)->set(S::bias, now.bias.caster_m.x);
     (*program)->set(S::range, light.desc->range_m);
     (*program)->bind(S::faces, (*cube)->texture);
-    gl::Pass pass({.label = "omni shadow", .target = &atlas_->framebuffer, .viewport = rect});
+    gl::Pass pass({.label = "omni shadow", .target = &atlas_->framebuffer, .viewport = now.rect});
     constexpr gl::DrawState kDepthOnly{gl::DepthTest::Always, gl::WriteMask::Depth, gl::Cull::Off};
     pass.draw_fullscreen(**program, resources.no_vertices, kDepthOnly);
     return {};
@@ -193,18 +192,25 @@ LocalShadowPass::draw(const Frame& frame, const Resources& resources, CasterDraw
         }
         const LightItem& light = frame.lights[owners[i]];
         const LightDesc& d = *light.desc;
-        const Drawn now{*slots[i],       light.world_from_light, light.casters_version,      d.range_m,
-                        d.shadow_bias_m, d.spot_angle_deg,       d.shadow_reverse_cull_face, d.type};
+        const ShadowBias bias = shadow_bias(frame, glm::vec2(d.shadow_bias_m, 0.0f));
+        const Drawn now{*slots[i],
+                        bias,
+                        light.world_from_light,
+                        light.casters_version,
+                        d.range_m,
+                        d.spot_angle_deg,
+                        d.shadow_reverse_cull_face,
+                        d.type};
         const auto before = drawn_.find(light.key);
         if (before == drawn_.end() || !(before->second == now)) {
-            Status s = d.type == LightType::Omni ? draw_omni(light, *slots[i], resources, casters)
-                                                 : draw_spot(light, *slots[i], resources, casters);
+            Status s = d.type == LightType::Omni ? draw_omni(light, now, resources, casters)
+                                                 : draw_spot(light, now, resources, casters);
             if (!s) {
                 return s.error();
             }
         }
         drawn.emplace(light.key, now);
-        placed[owners[i]] = PlacedLocalShadow{*slots[i], atlas_->slots.size()};
+        placed[owners[i]] = {*slots[i], atlas_->slots.size(), bias.step_texels};
     }
     drawn_ = std::move(drawn); // what was not asked for has lost its slot
     return placed;

@@ -5,6 +5,7 @@
 #include "drivers/gles3/light_sets.h"
 #include "drivers/gles3/passes/caster_draw.h"
 #include "drivers/gles3/shadow_atlas.h"
+#include "drivers/gles3/shadow_bias.h"
 
 #include <array>
 #include <map>
@@ -38,18 +39,19 @@ private:
     /// All that a map's texels depend on.
     struct Drawn {
         gl::Rect rect;
+        ShadowBias bias;
         Transform world_from_light;
         uint64_t casters_version = 0;
-        float range_m = 0.0f, bias_m = 0.0f, spot_angle_deg = 0.0f;
+        float range_m = 0.0f, spot_angle_deg = 0.0f;
         bool reverse_cull = false;
         LightType type = LightType::Omni;
         friend bool operator==(const Drawn&, const Drawn&) = default;
     };
     Status prepare_atlas(int size);
     Expected<const Cube*> cube_of(int size);
-    Status draw_spot(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+    Status draw_spot(const LightItem& light, const Drawn& now, const Resources& resources,
                      CasterDraw& casters);
-    Status draw_omni(const LightItem& light, const gl::Rect& rect, const Resources& resources,
+    Status draw_omni(const LightItem& light, const Drawn& now, const Resources& resources,
                      CasterDraw& casters);
     Status draw_face(const LightItem& light, const gl::Framebuffer& target, gl::CubeFace face,
                      const Resources& resources, CasterDraw& casters);

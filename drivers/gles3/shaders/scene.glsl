@@ -143,6 +143,7 @@ void main() {
     vec2 gloss = material_gloss();
     Surface s;
     s.position = v_position;
+    s.mesh_normal = mesh_normal();
     s.normal = material_normal();
     s.to_eye = -normalize(v_position);
     s.albedo = albedo.rgb;

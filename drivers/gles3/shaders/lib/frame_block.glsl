@@ -16,9 +16,11 @@ struct DirectionalLight {
     vec4 shadow_row_y;
     vec4 shadow_row_z; // ... and one along them
     vec4 split_uv[kMaxSplits];    // place in the shadow map = (x, y) * .xy + .zw
+    vec4 split_limits[kMaxSplits]; // the middles of its outermost texels: least xy, greatest zw
     vec4 split_depth[kMaxSplits]; // stored depth = z * x + y; the split covers view depths w to z
     float fade_begin; // view depths between which the shadow fades out
     float fade_end;
+    float shadow_step; // off the surface before a look-up [texels]
 };
 
 layout(std140) uniform Frame {

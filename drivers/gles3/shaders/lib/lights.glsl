@@ -7,6 +7,7 @@
 //          passes add besides is frame_light_passes
 struct Surface {
     vec3 position;
+    vec3 mesh_normal;
     vec3 normal;
     vec3 to_eye;
     vec3 albedo;
@@ -68,34 +69,43 @@ float distance_attenuation(float distance, float range, float exponent) {
 
 // --- directional -------------------------------------------------------------------------------------------------
 
-float directional_split_shadow(vec3 p, vec4 uv, vec4 depth, vec2 texel, bool wanted) {
-    // A split's square is wider than its part of the view by more than the filter: no limits are needed.
-    vec3 at = vec3(p.xy * uv.xy + uv.zw, p.z * depth.x + depth.y);
-    return shadow_lookup(directional_shadow, at, vec4(0.0, 0.0, 1.0, 1.0), texel, wanted);
+/// A part of the view with its own part of the map: see DirectionalLight.
+struct Split {
+    vec4 uv;
+    vec4 limits;
+    vec4 depth;
+};
+
+Split split_at(DirectionalLight light, int i) {
+    return Split(light.split_uv[i], light.split_limits[i], light.split_depth[i]);
 }
 
-float directional_shadow_at(DirectionalLight light, vec3 position, bool wanted) {
-    float depth = -position.z;
-    vec4 p4 = vec4(position, 1.0);
-    vec3 p = vec3(dot(light.shadow_row_x, p4), dot(light.shadow_row_y, p4), dot(light.shadow_row_z, p4));
-    vec4 uv = light.split_uv[kMaxSplits - 1];
-    vec4 range = light.split_depth[kMaxSplits - 1];
-    vec4 next_uv = uv;
-    vec4 next_range = range;
-    for (int i = kMaxSplits - 2; i >= 0; --i) {
+float directional_split_shadow(Split split, vec3 p, vec3 step, bool wanted) {
+    vec2 texel = 1.0 / vec2(textureSize(directional_shadow, 0));
+    vec2 texel_m = texel / split.uv.xy;
+    p += step * max(texel_m.x, texel_m.y);
+    vec3 at = vec3(p.xy * split.uv.xy + split.uv.zw, p.z * split.depth.x + split.depth.y);
+    return shadow_lookup(directional_shadow, at, split.limits, texel, wanted);
+}
+
+float directional_shadow_at(DirectionalLight light, Surface s, bool wanted) {
+    float depth = -s.position.z;
+    mat4x3 shadow_from_view = transpose(mat3x4(light.shadow_row_x, light.shadow_row_y, light.shadow_row_z));
+    vec3 p = shadow_from_view * vec4(s.position, 1.0);
+    vec3 step = shadow_from_view * vec4(s.mesh_normal * light.shadow_step, 0.0);
+    Split split = split_at(light, kMaxSplits - 1);
+    Split next = split;
+    for (int i = kMaxSplits - 2; i >= 0; --i) { // not by index: lanes differ, and gathering blocks is slow
         if (depth < light.split_depth[i].z) {
-            next_uv = uv;
-            next_range = range;
-            uv = light.split_uv[i];
-            range = light.split_depth[i];
+            next = split;
+            split = split_at(light, i);
         }
     }
-    wanted = wanted && light.splits > 0 && depth < range.z;
-    vec2 texel = 1.0 / vec2(textureSize(directional_shadow, 0));
-    float lit = directional_split_shadow(p, uv, range, texel, wanted);
+    wanted = wanted && light.splits > 0 && depth < split.depth.z;
+    float lit = directional_split_shadow(split, p, step, wanted);
     bool blends = wanted && light.blend_splits != 0;
-    float next_lit = directional_split_shadow(p, next_uv, next_range, texel, blends);
-    lit = blends ? mix(lit, next_lit, smoothstep(range.w, range.z, depth)) : lit;
+    float next_lit = directional_split_shadow(next, p, step, blends);
+    lit = blends ? mix(lit, next_lit, smoothstep(split.depth.w, split.depth.z, depth)) : lit;
     return mix(lit, 1.0, smoothstep(light.fade_begin, light.fade_end, depth));
 }
 
@@ -103,7 +113,7 @@ void add_directional_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < frame_directional_count; ++i) {
         DirectionalLight light = frame_directional[i];
         bool counts = (draw_directional_mask >> i & 1) == 1;
-        float lit = directional_shadow_at(light, s.position, counts && shadows_on);
+        float lit = directional_shadow_at(light, s, counts && shadows_on);
         vec3 color = light.color * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, light.to_light, counts ? color : vec3(0.0), light.specular, sum);
     }
@@ -129,7 +139,8 @@ void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
         float distance = length(to_light);
         float attenuation = distance_attenuation(distance, light.range, light.attenuation);
         bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
-        float lit = omni_shadow_at(light, s.position, in_reach);
+        vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
+        float lit = omni_shadow_at(light, off_surface, in_reach);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light / max(distance, 1e-6), color, light.specular, sum);
     }
@@ -155,7 +166,8 @@ void add_spot_lights(Surface s, bool shadows_on, inout LightSum sum) {
         float attenuation = distance_attenuation(distance, light.range, light.attenuation) *
                             (1.0 - pow(rim, light.angle_attenuation));
         bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
-        float lit = spot_shadow_at(light, s.position, in_reach);
+        vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
+        float lit = spot_shadow_at(light, off_surface, in_reach);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light, color, light.specular, sum);
     }

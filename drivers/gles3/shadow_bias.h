@@ -1,0 +1,30 @@
+#pragma once
+
+#include "servers/rasterizer.h"
+
+#include <glm/vec2.hpp>
+
+namespace cl::gles3 {
+
+/// What keeps surfaces from shading themselves where a texel of the shadow map, which holds one depth, covers
+/// many.
+struct ShadowBias {
+    /// Casters are drawn farther from the light: everywhere, and where a surface is parallel to the light's
+    /// rays.
+    glm::vec2 caster_m{0.0f};
+    /// Look-ups step off the surface, along its normal, by so many texels (Holbert 2011, "Saying goodbye to
+    /// shadow acne"). A plane stays lit from any side then, and walls stay tight however thin.
+    float step_texels = 0.0f;
+    friend bool operator==(const ShadowBias&, const ShadowBias&) = default;
+};
+
+/// @param as_set_m  what ShadowFit::AsSet uses for casters
+[[nodiscard]] constexpr ShadowBias shadow_bias(const Frame& frame, glm::vec2 as_set_m) noexcept {
+    if (frame.shadow_fit == ShadowFit::AsSet) {
+        return {as_set_m, 0.0f};
+    }
+    // The farthest that lib/shadow.glsl mixes in: its taps at 0, 1 or 2 texels, each filtered over 2 x 2.
+    return {glm::vec2(0.0f), frame.shadow_filter <= 0 ? 1.0f : (frame.shadow_filter == 1 ? 2.0f : 3.0f)};
+}
+
+} // namespace cl::gles3
