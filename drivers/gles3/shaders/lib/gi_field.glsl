@@ -192,13 +192,12 @@ vec3 field_specular(sampler3D volume, GIProbe probe, vec3 at, FieldPoint point, 
     float tan_half = tan(rho * 0.5 * 3.14159265359 * 0.99);
     vec3 color = vec3(0.0);
     float alpha = 0.0;
-    float distance = 1.0;
-    while (distance < probe.reach && alpha < 0.95) {
-        float diameter = cone_diameter(distance, tan_half);
-        vec4 s = textureLod(volume, (origin + distance * direction) * probe.uv_from_cells, log2(diameter));
+    ConeMarch march = cone_march(tan_half, 1.0);
+    while (march.distance < probe.reach && alpha < 0.95) {
+        vec4 s = textureLod(volume, (origin + march.distance * direction) * probe.uv_from_cells, march.lod);
         color += s.rgb * s.rgb * (1.0 - alpha);
         alpha += s.a * (1.0 - alpha);
-        distance += diameter * 0.5;
+        step_cone(march);
     }
     vec3 met = mix(point.environment, color * probe.field_range / max(alpha, 1e-3), min(alpha / 0.95, 1.0));
     // Wide cones see through walls: the rougher half takes what the surface itself receives.
