@@ -61,6 +61,15 @@ void add_light(Surface s, vec3 to_light, vec3 color, float specular_factor, inou
     sum.specular += s.roughness > 0.0 ? color * specular_factor * specular : vec3(0.0);
 }
 
+/// False where a light from there adds nothing, so that its shadow need not be looked up.
+bool may_light(Surface s, vec3 to_light) {
+#if defined(DIFFUSE_WRAP) || defined(DIFFUSE_TOON) || defined(SPECULAR_PHONG) || defined(SPECULAR_TOON)
+    return true; // these light surfaces that are turned away, too
+#else
+    return dot(s.normal, to_light) > 0.0;
+#endif
+}
+
 /// (1 - d / range)^exponent within the range.
 float distance_attenuation(float distance, float range, float exponent) {
     float d = distance / max(0.001, range);
@@ -113,7 +122,7 @@ void add_directional_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < frame_directional_count; ++i) {
         DirectionalLight light = frame_directional[i];
         bool counts = (draw_directional_mask >> i & 1) == 1;
-        float lit = directional_shadow_at(light, s, counts && shadows_on);
+        float lit = directional_shadow_at(light, s, counts && shadows_on && may_light(s, light.to_light));
         vec3 color = light.color * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, light.to_light, counts ? color : vec3(0.0), light.specular, sum);
     }
@@ -138,9 +147,9 @@ void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
         vec3 to_light = light.position - s.position;
         float distance = length(to_light);
         float attenuation = distance_attenuation(distance, light.range, light.attenuation);
-        bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
+        bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, to_light);
         vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
-        float lit = omni_shadow_at(light, off_surface, in_reach);
+        float lit = omni_shadow_at(light, off_surface, wanted);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light / max(distance, 1e-6), color, light.specular, sum);
     }
@@ -165,9 +174,9 @@ void add_spot_lights(Surface s, bool shadows_on, inout LightSum sum) {
         float rim = max(0.0001, (1.0 - cosine) / max(1.0 - light.cos_angle, 1e-6));
         float attenuation = distance_attenuation(distance, light.range, light.attenuation) *
                             (1.0 - pow(rim, light.angle_attenuation));
-        bool in_reach = attenuation > 0.0 && light.has_shadow != 0 && shadows_on;
+        bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, to_light);
         vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
-        float lit = spot_shadow_at(light, off_surface, in_reach);
+        float lit = spot_shadow_at(light, off_surface, wanted);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light, color, light.specular, sum);
     }

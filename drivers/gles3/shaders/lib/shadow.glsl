@@ -3,18 +3,21 @@
 // output   0 in shadow, 1 lit
 // variants PCF1, PCF13: taps of a look-up; none = 5
 // source   spec scene-classes section 9 (Reeves et al. 1987); each tap is itself filtered 2x2 by the sampler
-// The first tap alone, the first 5 and all 13 are the three filter modes. Their number is a constant: unrolled, 5 taps
-// cost llvmpipe half of what a loop over them does.
+// The number of taps is a constant: unrolled, 5 of them cost llvmpipe half of what a loop over them does. Above and below
+// come first: their rows of the map, which is not in the cache, are those of all the others.
 #if defined(PCF1)
 const int kShadowTapCount = 1;
-#elif defined(PCF13)
+const vec2 kShadowTaps[1] = vec2[1](vec2(0.0));
+#else
+#if defined(PCF13)
 const int kShadowTapCount = 13;
 #else
 const int kShadowTapCount = 5;
 #endif
-const vec2 kShadowTaps[13] = vec2[13](vec2(0.0), vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0),
+const vec2 kShadowTaps[13] = vec2[13](vec2(0.0, -1.0), vec2(0.0, 1.0), vec2(0.0), vec2(1.0, 0.0), vec2(-1.0, 0.0),
                                       vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0), vec2(-1.0, -1.0),
                                       vec2(2.0, 0.0), vec2(-2.0, 0.0), vec2(0.0, 2.0), vec2(0.0, -2.0));
+#endif
 
 /// Looks up the map around `at`.xy, kept inside `limits` (least xy, greatest zw) so that a neighbour's map in the atlas
 /// does not bleed in. Not `wanted` is lit, and costs nothing where no neighbouring pixel wants it either.
