@@ -76,7 +76,7 @@ std::vector<uint8_t> encoded(const Texels& texels, float range) {
                 continue;
             }
             for (int c = 0; c < 3; ++c) {
-                out[i * 4 + size_t(c)] = to_byte(std::sqrt(std::clamp(v[c] / range, 0.0f, 1.0f)));
+                out[i * 4 + size_t(c)] = to_byte(std::sqrt(std::clamp(v[c] * v.a / range, 0.0f, 1.0f)));
             }
             out[i * 4 + 3] = to_byte(v.a);
         }

@@ -14,8 +14,8 @@ namespace cl::radiosity {
 struct RadianceVolume {
     struct Level {
         glm::ivec3 size{0};
-        /// x fastest, then y, then z. rgb: square root of radiance / range, weighted by a; a: opacity. The
-        /// root keeps the dark in 8 bits.
+        /// x fastest, then y, then z. a: opacity; rgb: a * square root of (radiance / range), so that what a
+        /// sampler mixes with empty texels is (rgb / a)^2 still. The root keeps the dark in 8 bits.
         std::vector<uint8_t> rgba8;
     };
     std::vector<Level> levels; ///< edges are powers of two, down to 1 x 1 x 1

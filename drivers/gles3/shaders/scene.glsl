@@ -162,7 +162,11 @@ void main() {
 #ifdef DIFFUSE_TOON
     vec3 specular = environment * 2.0 * s.specular * s.metallic * s.albedo;
 #else
-    vec3 specular = environment * environment_brdf(fresnel, s.roughness, nv);
+    vec3 reflected = environment_brdf(fresnel, s.roughness, nv);
+    vec3 specular = environment * reflected;
+#ifdef GI_FIELD
+    ambient *= 1.0 - reflected; // no light twice
+#endif
 #endif
 
     LightSum direct = direct_light(s);

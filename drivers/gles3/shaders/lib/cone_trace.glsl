@@ -22,8 +22,12 @@ ConeMarch cone_march(float tan_half_aperture, float first_distance) {
     return ConeMarch(first_distance, tan_half_aperture, log2(widest) - narrow_steps * lod_step, lod_step);
 }
 
+float cone_diameter(ConeMarch march) {
+    return max(1.0, 2.0 * march.tan_half_aperture * march.distance);
+}
+
 void step_cone(inout ConeMarch march) {
-    march.distance += max(0.5, march.tan_half_aperture * march.distance);
+    march.distance += 0.5 * cone_diameter(march);
     march.lod += march.lod_step;
 }
 

@@ -187,15 +187,19 @@ vec3 field_diffuse(GIProbe probe, vec3 at, FieldPoint point) {
 vec3 field_specular(sampler3D volume, GIProbe probe, vec3 at, FieldPoint point, vec3 diffuse) {
     mat3 cells_from_view = mat3(probe.cells_from_view);
     vec3 direction = normalize(cells_from_view * point.reflection);
-    vec3 origin = at + 1.5 * normalize(cells_from_view * point.mesh_normal);
+    vec3 normal = normalize(cells_from_view * point.mesh_normal);
+    float rise = max(dot(direction, normal), 0.0);
     float rho = point.roughness * point.roughness;
     float tan_half = tan(rho * 0.5 * 3.14159265359 * 0.99);
     vec3 color = vec3(0.0);
     float alpha = 0.0;
     ConeMarch march = cone_march(tan_half, 1.0);
     while (march.distance < probe.reach && alpha < 0.95) {
-        vec4 s = textureLod(volume, (origin + march.distance * direction) * probe.uv_from_cells, march.lod);
-        color += s.rgb * s.rgb * (1.0 - alpha);
+        // Held off the surface by its own width: a lobe has no part below the horizon.
+        float height = max(1.5 + march.distance * rise, cone_diameter(march));
+        vec3 along = march.distance * (direction - rise * normal);
+        vec4 s = textureLod(volume, (at + along + height * normal) * probe.uv_from_cells, march.lod);
+        color += s.rgb * s.rgb / max(s.a, 1e-3) * (1.0 - alpha);
         alpha += s.a * (1.0 - alpha);
         step_cone(march);
     }
