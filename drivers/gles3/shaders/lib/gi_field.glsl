@@ -204,8 +204,10 @@ vec3 field_specular(sampler3D volume, GIProbe probe, vec3 at, FieldPoint point, 
         step_cone(march);
     }
     vec3 met = mix(point.environment, color * probe.field_range / max(alpha, 1e-3), min(alpha / 0.95, 1.0));
-    // Wide cones see through walls: the rougher half takes what the surface itself receives.
-    return mix(met, diffuse, smoothstep(0.5, 0.7, point.roughness));
+    // Cones that have become wider than walls are see through them: what they would meet is what the surface itself
+    // receives, then, and always for the rougher half.
+    float width = smoothstep(4.0, 16.0, cone_diameter(march));
+    return mix(met, diffuse, max(width, smoothstep(0.5, 0.7, point.roughness)));
 }
 #endif
 
