@@ -74,13 +74,32 @@ struct ChangedBricks {
 /// Emission as energy of each leaf [3 per leaf]: where the sums of inject_light() start (section 3, step 2).
 [[nodiscard]] std::vector<int32_t> emission_energies(const CellLayout& layout);
 
-/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5). An invisible
-/// light, and one whose numbers are not finite, reaches none. Sums are int32 and exact, so removing a light
-/// restores the numbers from before it came; one light adds at most 2^24 (radiance 16384), so that more than
-/// a hundred of the strongest fit. The result is the same for any number of threads.
-/// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
-/// Lamps light some leaves through walls, those that Godot lights (section 5.4, clip_planes.h).
+/// A leaf that a light reaches, and the share of the light that the surface there receives.
+struct LitLeaf {
+    uint32_t leaf = 0;
+    float share = 0.0f; ///< cosine, falloff and cone
+};
+
+/// The leaves that a light reaches (section 5), in their order: what does not depend on its colour and
+/// energy, nor on whether it is visible. The same for any number of threads. None if its numbers are not
+/// finite. Lamps light some leaves through walls, those that Godot lights (section 5.4, clip_planes.h).
 /// Departs from Godot: a leaf exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
+[[nodiscard]] std::vector<LitLeaf> find_lit_leaves(const CellLayout& layout, const CachedLight& light);
+
+/// True if both lights reach the same leaves by the same shares.
+[[nodiscard]] bool reach_alike(const CachedLight& a, const CachedLight& b) noexcept;
+
+/// True if the light adds nothing anywhere: it is invisible or black, or its numbers are not finite.
+[[nodiscard]] bool is_dark(const CachedLight& light) noexcept;
+
+/// Adds (sign +1) or removes (sign -1) the bounce of a light at the leaves that it reaches. Sums are int32
+/// and exact, so removing a light restores the numbers from before it came; one light adds at most 2^24
+/// (radiance 16384), so that more than a hundred of the strongest fit.
+/// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
+void add_light(const CellLayout& layout, std::span<const LitLeaf> lit, const CachedLight& light, int sign,
+               std::span<int32_t> leaf_energies);
+
+/// find_lit_leaves() and add_light(), unless the light is dark.
 void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
                   std::span<int32_t> leaf_energies);
 
