@@ -123,8 +123,8 @@ public:
     [[nodiscard]] size_t count() const { return size_t(blocks_.x) * size_t(blocks_.y) * size_t(blocks_.z); }
     /// @param at  of the texel in the brick
     void add(const glm::ivec3& at, const BlockTexel& texel) {
-        const size_t block = size_t((at.z * blocks_.y + at.y / 4) * blocks_.x + at.x / 4);
-        texels_[block][counts_[block]++] = texel;
+        const int block = (at.z * blocks_.y + at.y / 4) * blocks_.x + at.x / 4;
+        texels_[size_t(block)][counts_[size_t(block)]++] = texel;
     }
     [[nodiscard]] std::span<const BlockTexel> texels_of(size_t block) const {
         return std::span(texels_[block]).first(counts_[block]);

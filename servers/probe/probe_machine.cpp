@@ -13,7 +13,7 @@ namespace {
 
 /// Texels kept in memory after their upload, so that the next relight need not allocate. Beyond this memory
 /// counts for more than the few milliseconds.
-constexpr size_t kMaxKeptTexelBytes = size_t{32} << 20;
+constexpr size_t kMaxKeptTexelBytes = size_t{16} << 20;
 
 double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
