@@ -6,6 +6,7 @@
 #include "core/threads.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -205,14 +206,30 @@ std::vector<LitLeaf> march_run(const CellLayout& layout, const Light& light, con
     std::vector<LitLeaf> lit;
     lit.reserve(run.lit.size());
     ClipPlanes planes = run.planes;
+    std::array<AimedMarch, kMarchLanes> marches;
+    std::array<LitLeaf, kMarchLanes> marched;
+    size_t count = 0;
+    const auto walk = [&] {
+        const uint32_t reached = reaches_each(layout.leaf_bitmap, marches);
+        for (size_t i = 0; i < count; ++i) {
+            if ((reached >> i & 1u) != 0) {
+                lit.push_back(marched[i]);
+            }
+        }
+        count = 0;
+    };
     for (const auto& [index, ray] : run.lit) {
         const Leaf& leaf = layout.leaves[index];
         light.turn(planes, ray);
-        if (ray.attenuation != 0.0f && leaf.albedo != glm::u8vec3(0) &&
-            reaches(layout.leaf_bitmap, light.march(ray, planes), glm::ivec3(leaf.voxel))) {
-            lit.push_back({index, ray.attenuation});
+        if (ray.attenuation != 0.0f && leaf.albedo != glm::u8vec3(0)) {
+            marches[count] = {light.march(ray, planes), glm::ivec3(leaf.voxel)};
+            marched[count] = {index, ray.attenuation};
+            if (++count == kMarchLanes) {
+                walk();
+            }
         }
     }
+    walk(); // the rest, and some that were walked before
     return lit;
 }
 
