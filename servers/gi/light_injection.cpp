@@ -1,6 +1,4 @@
-// One light's bounce at every leaf it reaches (spec gi-update section 5).
-#include "servers/gi/clip_planes.h"
-#include "servers/gi/light_march.h"
+// A light's bounce at the leaves that it reaches (spec gi-update section 5.1, "Injection").
 #include "servers/gi/relight.h"
 
 #include "core/assert.h"
@@ -8,270 +6,66 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 namespace cl::gi {
 
 namespace {
 
-using Leaf = CellLayout::Leaf;
-
-/// Below this much N.L a leaf counts as turned away.
-constexpr float kMinFacing = 0.001f;
-/// Rays end this far from the voxel's centre, toward the light, so that they arrive inside the voxel.
-constexpr float kTowardLight = 0.47f;
-
 constexpr double kMaxEnergy = double(1 << 24);
-
-float dot(const glm::vec3& a, const glm::vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-float length(const glm::vec3& v) {
-    return std::sqrt(dot(v, v));
-}
-glm::vec3 normalized_or_zero(const glm::vec3& v) {
-    const float l = length(v);
-    return l > 0.0f ? v / l : glm::vec3(0.0f);
-}
-/// -1 below 0, +1 from 0 on.
-glm::vec3 signs(const glm::vec3& v) {
-    return {v.x < 0.0f ? -1.0f : 1.0f, v.y < 0.0f ? -1.0f : 1.0f, v.z < 0.0f ? -1.0f : 1.0f};
-}
-/// b^e, without the call for the usual exponent, whose result is b.
-float power(float base, float exponent) {
-    return exponent == 1.0f ? base : std::pow(base, exponent);
-}
 
 /// Truncates toward zero and keeps sums far from overflow; NaN gives 0.
 int32_t truncated(double v) {
     return std::isnan(v) ? 0 : int32_t(std::clamp(v, -kMaxEnergy, kMaxEnergy));
 }
 
-/// The end of the way from a light to a leaf, and the light's share that arrives if nothing is in its way.
-struct Ray {
-    glm::vec3 to{0.0f};        ///< [cells]
-    glm::vec3 direction{0.0f}; ///< of the light's travel, unit length
-    float attenuation = 0.0f;
-};
-
-/// A march along a ray that starts whole steps before its end. @param extra_steps  sun rays start one farther
-/// out.
-March whole_steps(const glm::ivec3& dims, const Ray& ray, const glm::vec3& from, float extra_steps) {
-    const float step = advance_of(ray.direction);
-    // Clipped, a ray is no longer than the grid's diagonal and its margins. Where float32 cannot clip (a
-    // light 1e9 cells away) this keeps the march short.
-    const float longest = 1.1f * length(glm::vec3(dims)) + 8.0f;
-    float distance = std::min(length(ray.to - from), longest);
-    distance += extra_steps * step - remainder_of(distance, step);
-    return {ray.to - ray.direction * distance, ray.direction, distance, step};
-}
-
-/// Section 5.2.
-class Sun {
-public:
-    Sun(const CellLayout& layout, const CachedLight& light)
-        : dims_(layout.dims), direction_(-normalized_or_zero(light.cells_from_light.basis[2])),
-          start_(length(glm::vec3(layout.dims)) * 1.1f) {
-        planes_.turn_to(dims_, direction_);
-    }
-
-    [[nodiscard]] std::optional<Ray> ray_to(const Leaf& leaf) const {
-        const float facing = dot(leaf.normal, -direction_);
-        if (!(facing >= kMinFacing)) {
-            return std::nullopt;
-        }
-        return Ray{glm::vec3(leaf.voxel) + 0.5f - kTowardLight * signs(direction_), direction_, facing};
-    }
-
-    /// Its one direction turned the planes before the first leaf.
-    void turn(ClipPlanes&, const Ray&) const {}
-    [[nodiscard]] const ClipPlanes& planes() const { return planes_; }
-
-    [[nodiscard]] March march(const Ray& ray, const ClipPlanes& planes) const {
-        return whole_steps(dims_, ray, planes.clipped_start(ray.to - start_ * direction_, ray.to), 1.0f);
-    }
-
-private:
-    glm::ivec3 dims_;
-    glm::vec3 direction_; ///< of the light's travel
-    float start_;         ///< far enough to be outside of the grid [cells]
-    ClipPlanes planes_;
-};
-
-/// Section 5.3: omni lights, and spots, which have a cone besides.
-class Lamp {
-public:
-    Lamp(const CellLayout& layout, const CachedLight& light)
-        : dims_(layout.dims), light_(light), position_(light.cells_from_light.origin),
-          axis_(-normalized_or_zero(light.cells_from_light.basis[2])),
-          range_(light.range_m * length(light.cells_from_light.basis[2])) {}
-
-    [[nodiscard]] std::optional<Ray> ray_to(const Leaf& leaf) const {
-        glm::vec3 to = glm::vec3(leaf.voxel) + 0.5f;
-        to += kTowardLight * signs(position_ - to);
-        const glm::vec3 way = to - position_;
-        const float distance = length(way);
-        if (!(distance > 0.0f)) {
-            return std::nullopt;
-        }
-        const glm::vec3 direction = way / distance;
-        const float facing = dot(leaf.normal, -direction);
-        const float reach = distance + advance_of(direction);
-        if (!(facing >= kMinFacing) || reach > range_) {
-            return std::nullopt;
-        }
-        const float cone = light_.type == LightType::Spot ? cone_share(direction) : 1.0f;
-        const float attenuation =
-            facing * power(1.0f - std::clamp(reach / range_, 0.0f, 1.0f), light_.attenuation);
-        if (cone < 0.0f) {
-            return std::nullopt;
-        }
-        return Ray{to, direction, attenuation * cone};
-    }
-
-    void turn(ClipPlanes& planes, const Ray& ray) const { planes.turn_to(dims_, ray.direction); }
-
-    [[nodiscard]] March march(const Ray& ray, const ClipPlanes& planes) const {
-        return whole_steps(dims_, ray, planes.clipped_start(position_, ray.to), 0.0f);
-    }
-
-private:
-    /// Negative outside the cone.
-    [[nodiscard]] float cone_share(const glm::vec3& direction) const {
-        constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-        const float angle_deg = float(std::acos(std::clamp(dot(direction, axis_), -1.0f, 1.0f)) * kDegrees);
-        if (angle_deg > light_.spot_angle_deg) {
-            return -1.0f;
-        }
-        return power(1.0f - std::clamp(angle_deg / light_.spot_angle_deg, 0.0f, 1.0f),
-                     light_.spot_attenuation);
-    }
-
-    glm::ivec3 dims_;
-    const CachedLight& light_;
-    glm::vec3 position_; ///< [cells]
-    glm::vec3 axis_;
-    float range_; ///< [cells]
-};
-
-/// Energy that a leaf of this albedo reflects, per channel (section 5.1, "Injection").
-glm::ivec3 reflected(const glm::ivec3& light_color, float attenuation, const glm::u8vec3& albedo) {
+/// Energy of a light, per channel.
+glm::ivec3 light_energy(const CachedLight& light) {
     glm::ivec3 energy(0);
     for (int c = 0; c < 3; ++c) {
-        const float product = float(light_color[c]) * attenuation * float(albedo[c]);
-        energy[c] = truncated(double(product) / 255.0);
+        energy[c] = truncated(double(light.color[c] * light.energy) * 1024.0);
     }
     return energy;
 }
 
-/// Leaves that one thread works on at a time, in their order.
-struct Run {
-    struct Lit {
-        uint32_t leaf;
-        Ray ray;
-    };
-    std::vector<Lit> lit; ///< leaves that face the light within its reach
-    ClipPlanes planes;    ///< as the run finds them
-    static constexpr size_t kLeaves = 1024;
-};
-
-template <typename Light>
-std::vector<Run> aim(const CellLayout& layout, const Light& light) {
-    std::vector<Run> runs((layout.leaves.size() + Run::kLeaves - 1) / Run::kLeaves);
-    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t run = begin; run < end; ++run) {
-            const size_t last = std::min((run + 1) * Run::kLeaves, layout.leaves.size());
-            for (size_t i = run * Run::kLeaves; i < last; ++i) {
-                if (const std::optional<Ray> ray = light.ray_to(layout.leaves[i])) {
-                    runs[run].lit.push_back({uint32_t(i), *ray});
-                }
-            }
-        }
-    });
-    return runs;
+/// Energy that a leaf of this albedo reflects, of a channel.
+int32_t reflected(float light_energy, float share, uint8_t albedo) {
+    return truncated(double(light_energy * share * float(albedo)) / 255.0);
 }
 
-void set_planes(const Sun& sun, std::vector<Run>& runs) {
-    for (Run& run : runs) {
-        run.planes = sun.planes();
-    }
-}
-
-/// They turn from leaf to leaf, in the leaves' order.
-void set_planes(const Lamp& lamp, std::vector<Run>& runs) {
-    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t run = begin; run < end; ++run) {
-            for (const Run::Lit& lit : runs[run].lit) {
-                lamp.turn(runs[run].planes, lit.ray);
-            }
-        }
-    });
-    ClipPlanes before;
-    for (Run& run : runs) {
-        const ClipPlanes turned = std::exchange(run.planes, before);
-        before.then(turned);
-    }
-}
-
-template <typename Light>
-void inject_run(const CellLayout& layout, const Light& light, const glm::ivec3& light_color, const Run& run,
-                std::span<int32_t> leaf_energies) {
-    ClipPlanes planes = run.planes;
-    for (const Run::Lit& lit : run.lit) {
-        const Leaf& leaf = layout.leaves[lit.leaf];
-        light.turn(planes, lit.ray);
-        const glm::ivec3 energy = reflected(light_color, lit.ray.attenuation, leaf.albedo);
-        if (energy == glm::ivec3(0) ||
-            !reaches(layout.leaf_bitmap, light.march(lit.ray, planes), glm::ivec3(leaf.voxel))) {
-            continue;
-        }
-        for (size_t c = 0; c < 3; ++c) {
-            leaf_energies[size_t(lit.leaf) * 3 + c] += energy[int(c)];
-        }
-    }
-}
-
-template <typename Light>
-void inject(const CellLayout& layout, const Light& light, const glm::ivec3& light_color,
-            std::span<int32_t> leaf_energies) {
-    std::vector<Run> runs = aim(layout, light);
-    set_planes(light, runs);
-    parallel_for(runs.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t run = begin; run < end; ++run) {
-            inject_run(layout, light, light_color, runs[run], leaf_energies);
-        }
-    });
-}
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool is_usable(const CachedLight& l) {
-    return is_finite(l.cells_from_light.basis[2]) && is_finite(l.cells_from_light.origin) &&
-           is_finite(l.color) && std::isfinite(l.energy) && std::isfinite(l.range_m) &&
-           std::isfinite(l.attenuation) && std::isfinite(l.spot_angle_deg) &&
-           std::isfinite(l.spot_attenuation);
+bool is_finite(const CachedLight& light) {
+    return std::isfinite(light.color.r) && std::isfinite(light.color.g) && std::isfinite(light.color.b) &&
+           std::isfinite(light.energy);
 }
 
 } // namespace
 
-void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
-                  std::span<int32_t> leaf_energies) {
+bool is_dark(const CachedLight& light) noexcept {
+    return !light.visible || !is_finite(light) || light_energy(light) == glm::ivec3(0);
+}
+
+void add_light(const CellLayout& layout, std::span<const LitLeaf> lit, const CachedLight& light, int sign,
+               std::span<int32_t> leaf_energies) {
     CL_ASSERT(sign == 1 || sign == -1, "a light comes or goes");
     CL_ASSERT(leaf_energies.size() == layout.leaves.size() * 3, "three energies a leaf");
-    if (!light.visible || !is_usable(light)) {
+    if (is_dark(light)) {
         return;
     }
-    glm::ivec3 color(0);
-    for (int c = 0; c < 3; ++c) {
-        color[c] = truncated(double(light.color[c] * light.energy) * 1024.0) * sign;
-    }
-    if (light.type == LightType::Directional) {
-        inject(layout, Sun(layout, light), color, leaf_energies);
-    } else {
-        inject(layout, Lamp(layout, light), color, leaf_energies);
+    constexpr size_t kGrain = 4096;
+    const glm::vec3 energy(light_energy(light) * sign);
+    parallel_for(lit.size(), kGrain, [&](size_t begin, size_t end) {
+        for (const auto& [leaf, share] : lit.subspan(begin, end - begin)) {
+            const glm::u8vec3 albedo = layout.leaves[leaf].albedo;
+            for (int c = 0; c < 3; ++c) {
+                leaf_energies[size_t(leaf) * 3 + size_t(c)] += reflected(energy[c], share, albedo[c]);
+            }
+        }
+    });
+}
+
+void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
+                  std::span<int32_t> leaf_energies) {
+    if (!is_dark(light)) {
+        add_light(layout, find_lit_leaves(layout, light), light, sign, leaf_energies);
     }
 }
 

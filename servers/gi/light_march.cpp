@@ -1,14 +1,13 @@
 #include "servers/gi/light_march.h"
 
+#include "servers/gi/float4.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace cl::gi {
 
 namespace {
-
-float4 lanes(const glm::vec3& v) {
-    return float4{v.x, v.y, v.z, 0.0f};
-}
 
 /// Rounds toward minus infinity; |v| < 2^31.
 int4 floored(float4 v) {
@@ -38,23 +37,55 @@ float remainder_of(float a, float b) noexcept {
     return float(rest);
 }
 
-bool reaches(const LeafBitmap& leaves, const March& march, const glm::ivec3& target) noexcept {
-    float4 at = lanes(march.from);
-    const float4 step = lanes(march.direction * march.step);
-    float distance = march.distance;
-    while (distance > -march.step) {
-        const int4 cell = floored(at);
-        const LeafBitmap::Found found = leaves.look(cell[0], cell[1], cell[2]);
-        if (found.leaf) {
-            return cell[0] == target.x && cell[1] == target.y && cell[2] == target.z;
+uint32_t reaches_each(const LeafBitmap& leaves, const std::array<AimedMarch, kMarchLanes>& marches) noexcept {
+    // The fourth lane is the distance that is left.
+    std::array<float4, kMarchLanes> at, step;
+    for (size_t i = 0; i < kMarchLanes; ++i) {
+        const March& m = marches[i].march;
+        const glm::vec3 stride = m.direction * m.step;
+        at[i] = float4{m.from.x, m.from.y, m.from.z, m.distance};
+        step[i] = float4{stride.x, stride.y, stride.z, -m.step};
+    }
+    std::array<uint32_t, kMarchLanes> free{}; ///< steps before the next look
+    uint32_t walking = (1u << kMarchLanes) - 1, reached = 0;
+    for (;;) {
+        uint32_t leap = UINT32_MAX;
+        for (size_t i = 0; i < kMarchLanes; ++i) {
+            if ((walking >> i & 1u) != 0 && free[i] == 0) {
+                const int4 cell = floored(at[i]);
+                const LeafBitmap::Found found = leaves.look(cell[0], cell[1], cell[2]);
+                free[i] = found.free_steps + 1;
+                if (found.leaf || !(at[i][3] > step[i][3])) {
+                    const bool is_target = cell[0] == marches[i].target.x && cell[1] == marches[i].target.y &&
+                                           cell[2] == marches[i].target.z;
+                    reached |= uint32_t(is_target && at[i][3] > step[i][3]) << i;
+                    walking &= ~(1u << i);
+                    free[i] = UINT32_MAX;
+                }
+            }
+            leap = std::min(leap, free[i]);
+        }
+        if (walking == 0) {
+            return reached;
+        }
+        for (uint32_t& steps : free) {
+            steps -= leap;
         }
         // Free steps are still taken one by one: the sum of their roundings decides where the ray arrives.
-        for (uint32_t i = 0; i <= found.free_steps && distance > -march.step; ++i) {
-            at += step;
-            distance -= march.step;
+        // Those beyond the end meet nothing either.
+        float4 a = at[0], b = at[1], c = at[2], d = at[3];
+        for (; leap > 0; --leap) {
+            a += step[0];
+            b += step[1];
+            c += step[2];
+            d += step[3];
         }
+        at = {a, b, c, d};
     }
-    return false;
+}
+
+bool reaches(const LeafBitmap& leaves, const AimedMarch& aimed) noexcept {
+    return (reaches_each(leaves, {aimed, aimed, aimed, aimed}) & 1u) != 0;
 }
 
 } // namespace cl::gi

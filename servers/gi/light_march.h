@@ -1,9 +1,12 @@
 #pragma once
 
-#include "servers/gi/float4.h"
 #include "servers/gi/leaf_bitmap.h"
 
 #include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace cl::gi {
 
@@ -22,7 +25,19 @@ struct March {
 /// Remainder of a / b for 0 <= a < 2^24 * b, b > 0: the same number as std::fmod, without its loop.
 [[nodiscard]] float remainder_of(float a, float b) noexcept;
 
-/// True if the first leaf that the march meets is `target`.
-[[nodiscard]] bool reaches(const LeafBitmap& leaves, const March& march, const glm::ivec3& target) noexcept;
+/// A march and the leaf that it goes to.
+struct AimedMarch {
+    March march;
+    glm::ivec3 target{0};
+};
+
+/// True if the first leaf that the march meets is its target.
+[[nodiscard]] bool reaches(const LeafBitmap& leaves, const AimedMarch& aimed) noexcept;
+
+/// Marches that are walked in step, as one alone waits for each of its sums.
+inline constexpr size_t kMarchLanes = 4;
+/// reaches() of each: bit i for march i. Fastest for marches that are alike.
+[[nodiscard]] uint32_t reaches_each(const LeafBitmap& leaves,
+                                    const std::array<AimedMarch, kMarchLanes>& marches) noexcept;
 
 } // namespace cl::gi

@@ -2,14 +2,15 @@
 
 #include "servers/gi/relight.h"
 
-#include <deque>
+#include <list>
 #include <vector>
 
 namespace cl::gi {
 
-/// What the last few lights added to each leaf. A light that changes is taken out as it was before it is put
-/// in as it is now: remembered, that is a subtraction instead of a march to every leaf. Sums are exact, so
-/// the result is that of inject_light() to the bit. Costs 12 bytes a leaf and light.
+/// Which leaves the last few lights reach, and by what share. To find that out is most of a light's cost, and
+/// it only depends on where the light is and how it is shaped: a light that changes colour or energy, or
+/// flickers, is not marched again, nor is one that is taken out as it was to be put in elsewhere. Sums are
+/// exact and shares are kept to the bit, so the result is that of inject_light().
 class LightMemory {
 public:
     /// inject_light(). @param layout  the same in every call
@@ -17,13 +18,15 @@ public:
                 std::span<int32_t> leaf_energies);
 
 private:
-    static constexpr size_t kMostLights = 4;
+    /// Eight lights or so at 256^3, one or two at 512^3. The latest is kept in any case.
+    static constexpr size_t kMostLeaves = (size_t{16} << 20) / sizeof(LitLeaf);
     struct Known {
         CachedLight light;
-        std::vector<int32_t> energies; ///< 3 per leaf
+        std::vector<LitLeaf> lit;
     };
-    std::deque<Known> known_;    ///< latest first
-    std::vector<int32_t> spare_; ///< memory of a light that is forgotten, for the next
+    void forget_beyond(size_t most_leaves);
+
+    std::list<Known> known_; ///< the first to be forgotten is the last
 };
 
 } // namespace cl::gi

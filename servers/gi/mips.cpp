@@ -1,51 +1,75 @@
 // The bytes of the GI texture (spec gi-update section 7).
+#include "servers/gi/bricks.h"
 #include "servers/gi/relight.h"
+#include "servers/gi/s3tc.h"
 
 #include "core/assert.h"
 #include "core/threads.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 namespace cl::gi {
 
 namespace {
 
-/// Levels of zeros: no cell, no light.
-std::vector<MipLevel> empty_levels(const glm::ivec3& dims) {
-    std::vector<MipLevel> levels(size_t(mip_count(dims)));
-    for (size_t m = 0; m < levels.size(); ++m) {
-        levels[m].size = dims >> int(m);
-        levels[m].rgba8.assign(
-            size_t(levels[m].size.x) * size_t(levels[m].size.y) * size_t(levels[m].size.z) * 4, 0);
+/// energy / dynamic range / 4 in whole numbers, at most 255, without dividing.
+class TexelByte {
+public:
+    explicit TexelByte(int dynamic_range) : reciprocal_((uint64_t(1) << 32) / divisor(dynamic_range) + 1) {}
+
+    /// Exact: rounding the reciprocal up adds less than 2^16 / 2^32, which is not enough to reach the next
+    /// whole number from a multiple of 1 / divisor.
+    [[nodiscard]] uint8_t operator()(Energy energy) const {
+        return uint8_t(std::min<uint64_t>((energy * reciprocal_) >> 32, 255));
     }
-    return levels;
+
+private:
+    /// Beyond 65535 every energy gives 0.
+    static uint64_t divisor(int dynamic_range) {
+        return std::min<uint64_t>(uint64_t(std::max(dynamic_range, 1)) * 4, 65536);
+    }
+    uint64_t reciprocal_;
+};
+
+void encode_plain_brick(const CellLayout& layout, const CellEnergies& energies, const CellRange& cells,
+                        const TexelByte& byte, const TexelBoxes::Box& box, std::span<uint8_t> rgba8) {
+    std::fill(rgba8.begin(), rgba8.end(), uint8_t(0));
+    for (size_t cell = cells.begin; cell < cells.end; ++cell) {
+        const glm::ivec3 at = glm::ivec3(layout.voxels[cell]) - box.offset;
+        uint8_t* texel = rgba8.data() + size_t((at.z * box.size.y + at.y) * box.size.x + at.x) * 4;
+        for (size_t c = 0; c < 3; ++c) {
+            texel[c] = byte(energies.rgb[cell * 3 + c]);
+        }
+        texel[3] = layout.opacity[cell];
+    }
 }
 
-bool has_shape_of(const std::vector<MipLevel>& levels, const glm::ivec3& dims) {
-    return levels.size() == size_t(mip_count(dims)) && levels[0].size == dims;
-}
+/// A box to be filled, and the cells that lie in it.
+struct Task {
+    TexelBoxes::Box box;
+    CellRange cells;
+};
 
-/// energy / dynamic range / 4, for every energy. A table: dividing takes longer than all else here.
-std::vector<uint8_t> texel_bytes(int dynamic_range) {
-    std::vector<uint8_t> bytes(size_t(std::numeric_limits<Energy>::max()) + 1);
-    const uint32_t range = uint32_t(std::max(dynamic_range, 1));
-    for (uint32_t energy = 0; energy < bytes.size(); ++energy) {
-        bytes[energy] = uint8_t(std::min((energy / range) >> 2, 255u));
+std::vector<Task> tasks_of(const CellLayout& layout, int mip_count, const ChangedBricks& changed) {
+    std::vector<Task> tasks;
+    size_t bytes = 0;
+    for (size_t mip = 0; mip < size_t(mip_count); ++mip) {
+        const MipBricks in = bricks_of_mip(layout, mip);
+        const size_t depth = in.texel_level - in.brick_level;
+        const glm::ivec3 size = glm::min(layout.dims >> int(mip), glm::ivec3(1 << depth));
+        CL_ASSERT(changed.mips[mip].size() == in.bricks.size(), "a flag for each brick");
+        for (size_t i = 0; i < in.bricks.size(); ++i) {
+            if (changed.mips[mip][i]) {
+                const size_t brick = in.bricks.begin + i;
+                const glm::ivec3 offset = glm::ivec3(layout.voxels[brick]) * (1 << depth);
+                tasks.push_back(
+                    {{int(mip), offset, size, bytes}, cells_below(layout, {brick, brick + 1}, depth)});
+                bytes += tasks.back().box.bytes();
+            }
+        }
     }
-    return bytes;
-}
-
-void encode_cell(const CellLayout& layout, const CellEnergies& energies, size_t index,
-                 std::span<const uint8_t> bytes, MipLevel& level) {
-    const glm::u16vec3 voxel = layout.voxels[index];
-    const size_t texel = (size_t(voxel.z) * size_t(level.size.y) + voxel.y) * size_t(level.size.x) + voxel.x;
-    uint8_t* rgba = level.rgba8.data() + texel * 4;
-    for (size_t c = 0; c < 3; ++c) {
-        rgba[c] = bytes[energies.rgb[index * 3 + c]];
-    }
-    rgba[3] = layout.opacity[index];
+    return tasks;
 }
 
 } // namespace
@@ -58,23 +82,33 @@ int mip_count(const glm::ivec3& dims) noexcept {
     return count;
 }
 
-void encode_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
-                 std::vector<MipLevel>& levels) {
+int mip_count(const CellLayout& layout, TexelCoding coding) noexcept {
+    return coding == TexelCoding::Dxt5 ? block_mip_count(layout.dims) : mip_count(layout.dims);
+}
+
+void encode_bricks(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
+                   TexelCoding coding, const ChangedBricks& changed, TexelBoxes& out) {
     CL_ASSERT(energies.rgb.size() == layout.cell_count() * 3, "three energies a cell");
-    if (!has_shape_of(levels, layout.dims)) {
-        levels = empty_levels(layout.dims);
+    constexpr size_t kGrain = 32;
+    const std::vector<Task> tasks = tasks_of(layout, mip_count(layout, coding), changed);
+    out.boxes.clear();
+    for (const Task& task : tasks) {
+        out.boxes.push_back(task.box);
     }
-    constexpr size_t kGrain = 4096;
-    const std::vector<uint8_t> bytes = texel_bytes(dynamic_range);
-    for (size_t m = 0; m < levels.size(); ++m) {
-        const size_t level = size_t(layout.levels) - 1 - m;
-        const size_t first = layout.level_begin[level];
-        parallel_for(layout.level_begin[level + 1] - first, kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = first + begin; i < first + end; ++i) {
-                encode_cell(layout, energies, i, bytes, levels[m]);
+    const size_t bytes = tasks.empty() ? 0 : tasks.back().box.first_byte + tasks.back().box.bytes();
+    out.rgba8.resize(std::max(out.rgba8.size(), bytes));
+    const TexelByte byte(dynamic_range);
+    parallel_for(tasks.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const auto& [box, cells] = tasks[i];
+            const std::span<uint8_t> rgba8 = std::span(out.rgba8).subspan(box.first_byte, box.bytes());
+            if (coding == TexelCoding::Dxt5) {
+                encode_block_brick(layout, energies, cells, dynamic_range, box, rgba8);
+            } else {
+                encode_plain_brick(layout, energies, cells, byte, box, rgba8);
             }
-        });
-    }
+        }
+    });
 }
 
 } // namespace cl::gi

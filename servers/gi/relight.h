@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,19 +61,45 @@ struct CellLayout {
 
 /// Energies of all cells.
 struct CellEnergies {
-    std::vector<Energy> rgb; ///< 3 * cell count, in the order of the layout
+    std::vector<Energy> rgb;          ///< 3 * cell count, in the order of the layout
+    std::optional<float> propagation; ///< that inner cells were made with; none: they hold nothing yet
+};
+
+/// Per mip, and per brick of it (bricks.h, in the order of the layout): 1 if an energy in it changed. Mips go
+/// on to the root, also where the texture ends sooner.
+struct ChangedBricks {
+    std::vector<std::vector<uint8_t>> mips;
 };
 
 /// Emission as energy of each leaf [3 per leaf]: where the sums of inject_light() start (section 3, step 2).
 [[nodiscard]] std::vector<int32_t> emission_energies(const CellLayout& layout);
 
-/// Adds (sign +1) or removes (sign -1) one light's bounce at every leaf it reaches (section 5). An invisible
-/// light, and one whose numbers are not finite, reaches none. Sums are int32 and exact, so removing a light
-/// restores the numbers from before it came; one light adds at most 2^24 (radiance 16384), so that more than
-/// a hundred of the strongest fit. The result is the same for any number of threads.
-/// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
-/// Lamps light some leaves through walls, those that Godot lights (section 5.4, clip_planes.h).
+/// A leaf that a light reaches, and the share of the light that the surface there receives.
+struct LitLeaf {
+    uint32_t leaf = 0;
+    float share = 0.0f; ///< cosine, falloff and cone
+};
+
+/// The leaves that a light reaches (section 5), in their order: what does not depend on its colour and
+/// energy, nor on whether it is visible. The same for any number of threads. None if its numbers are not
+/// finite. Lamps light some leaves through walls, those that Godot lights (section 5.4, clip_planes.h).
 /// Departs from Godot: a leaf exactly on a spot's axis is lit where Godot's arc cosine may be NaN.
+[[nodiscard]] std::vector<LitLeaf> find_lit_leaves(const CellLayout& layout, const CachedLight& light);
+
+/// True if both lights reach the same leaves by the same shares.
+[[nodiscard]] bool reach_alike(const CachedLight& a, const CachedLight& b) noexcept;
+
+/// True if the light adds nothing anywhere: it is invisible or black, or its numbers are not finite.
+[[nodiscard]] bool is_dark(const CachedLight& light) noexcept;
+
+/// Adds (sign +1) or removes (sign -1) the bounce of a light at the leaves that it reaches. Sums are int32
+/// and exact, so removing a light restores the numbers from before it came; one light adds at most 2^24
+/// (radiance 16384), so that more than a hundred of the strongest fit.
+/// @param leaf_energies  3 per leaf, in the order of layout.leaves; 1024 = radiance 1.0.
+void add_light(const CellLayout& layout, std::span<const LitLeaf> lit, const CachedLight& light, int sign,
+               std::span<int32_t> leaf_energies);
+
+/// find_lit_leaves() and add_light(), unless the light is dark.
 void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
                   std::span<int32_t> leaf_energies);
 
@@ -80,25 +107,41 @@ void inject_light(const CellLayout& layout, const CachedLight& light, int sign,
 /// level by level (section 6). The same bytes for any history of light edits.
 /// @param leaf_energies  3 per leaf, unclamped sums of emission and lights, kept between calls.
 /// @param propagation    0: mean over eight children, empty ones black; 1: mean over those that exist.
-void energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies, float propagation,
-                          CellEnergies& out);
+/// @param energies  new, or as a former call for the same layout left them: then only cells above leaves that
+///                  changed are summed anew, unless propagation changed.
+/// @return what differs from before; all, if `energies` were new.
+ChangedBricks energies_from_leaves(const CellLayout& layout, std::span<const int32_t> leaf_energies,
+                                   float propagation, CellEnergies& energies);
 
 /// How texels are kept: as they are, or by way of Godot's DXT5 blocks (section 7.1, s3tc.h).
 enum class TexelCoding : uint8_t { Plain, Dxt5 };
 
-/// One texture level: RGBA8, size dims >> mip (section 7).
-struct MipLevel {
-    glm::ivec3 size{0};
-    std::vector<uint8_t> rgba8; ///< x fastest, then y, then z
-};
-/// Levels of the texture: dims are halved until one of them is 1.
+/// Levels of a texture of plain texels: dims are halved until one of them is 1.
 [[nodiscard]] int mip_count(const glm::ivec3& dims) noexcept;
-/// rgb = energy / dynamic range, a = opacity (section 7): the bytes of every level of the texture.
+/// Levels of a layout's texture. 0 if it is too thin for blocks (s3tc.h).
+[[nodiscard]] int mip_count(const CellLayout& layout, TexelCoding coding) noexcept;
+
+/// Boxes of a texture whose level m has dims >> m texels, and the texels that go there.
+struct TexelBoxes {
+    struct Box {
+        int mip = 0;
+        glm::ivec3 offset{0}, size{0}; ///< [texels]
+        size_t first_byte = 0;
+        [[nodiscard]] size_t bytes() const { return size_t(size.x) * size_t(size.y) * size_t(size.z) * 4; }
+    };
+    std::vector<Box> boxes;
+    std::vector<uint8_t> rgba8; ///< at least what the boxes need; x fastest, then y, then z
+
+    [[nodiscard]] std::span<const uint8_t> texels_of(const Box& box) const {
+        return std::span(rgba8).subspan(box.first_byte, box.bytes());
+    }
+};
+
+/// rgb = energy / dynamic range, a = opacity (section 7), for each brick in `changed`. Texels of no brick, as
+/// those that no cell lies in, are 0.
 /// @param dynamic_range  less than 1 counts as 1.
-/// @param levels  empty, or as a former call for the same layout left them: then only occupied texels are
-/// written,
-///                which is most of the saving of a relight.
-void encode_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
-                 std::vector<MipLevel>& levels);
+/// @param out  replaced; its memory is used again.
+void encode_bricks(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
+                   TexelCoding coding, const ChangedBricks& changed, TexelBoxes& out);
 
 } // namespace cl::gi

@@ -1,7 +1,6 @@
 #include "servers/gi/s3tc.h"
 
 #include "core/assert.h"
-#include "core/threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,79 +113,49 @@ glm::ivec3 unpacked565(uint32_t code) {
     return {r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2};
 }
 
-/// The cells of one level by the block that they lie in, each block's in the level's order.
+/// The texels of a brick by the block that they lie in, each block's in the cells' order.
 class BlockTable {
 public:
-    /// @param level  of the tree
-    BlockTable(const CellLayout& layout, size_t level, const glm::ivec3& size)
-        : blocks_x_(size_t(size.x) / 4), blocks_y_(size_t(size.y) / 4),
-          begins_(blocks_x_ * blocks_y_ * size_t(size.z) + 1, 0),
-          cells_(layout.level_begin[level + 1] - layout.level_begin[level]) {
-        const uint32_t first = layout.level_begin[level], end = layout.level_begin[level + 1];
-        for (uint32_t cell = first; cell < end; ++cell) {
-            ++begins_[block_of(layout.voxels[cell]) + 1];
-        }
-        for (size_t i = 1; i < begins_.size(); ++i) {
-            begins_[i] += begins_[i - 1];
-        }
-        std::vector<uint32_t> next(begins_.begin(), begins_.end() - 1);
-        for (uint32_t cell = first; cell < end; ++cell) {
-            cells_[next[block_of(layout.voxels[cell])]++] = cell;
-        }
+    explicit BlockTable(const glm::ivec3& size) : blocks_(size.x / 4, size.y / 4, size.z) {
+        CL_ASSERT(count() <= texels_.size(), "a brick has 8 texels on each side");
     }
 
-    [[nodiscard]] size_t count() const { return begins_.size() - 1; }
-    [[nodiscard]] std::span<const uint32_t> cells_of(size_t block) const {
-        return std::span(cells_).subspan(begins_[block], begins_[block + 1] - begins_[block]);
+    [[nodiscard]] size_t count() const { return size_t(blocks_.x) * size_t(blocks_.y) * size_t(blocks_.z); }
+    /// @param at  of the texel in the brick
+    void add(const glm::ivec3& at, const BlockTexel& texel) {
+        const int block = (at.z * blocks_.y + at.y / 4) * blocks_.x + at.x / 4;
+        texels_[size_t(block)][counts_[size_t(block)]++] = texel;
+    }
+    [[nodiscard]] std::span<const BlockTexel> texels_of(size_t block) const {
+        return std::span(texels_[block]).first(counts_[block]);
     }
     /// The block's first texel.
     [[nodiscard]] glm::ivec3 origin_of(size_t block) const {
-        return {int(block % blocks_x_) * 4, int(block / blocks_x_ % blocks_y_) * 4,
-                int(block / blocks_x_ / blocks_y_)};
+        const int b = int(block);
+        return {b % blocks_.x * 4, b / blocks_.x % blocks_.y * 4, b / blocks_.x / blocks_.y};
     }
 
 private:
-    [[nodiscard]] size_t block_of(const glm::u16vec3& voxel) const {
-        return (size_t(voxel.z) * blocks_y_ + voxel.y / 4u) * blocks_x_ + voxel.x / 4u;
-    }
-
-    size_t blocks_x_, blocks_y_;
-    std::vector<uint32_t> begins_; ///< per block, and the end
-    std::vector<uint32_t> cells_;
+    static constexpr size_t kMostBlocks = 2 * 2 * 8;
+    glm::ivec3 blocks_;
+    std::array<size_t, kMostBlocks> counts_{};
+    std::array<std::array<BlockTexel, kTexels>, kMostBlocks> texels_;
 };
 
-BlockTexel texel_of(const CellLayout& layout, const CellEnergies& energies, uint32_t cell, float range) {
-    const Energy* e = energies.rgb.data() + size_t(cell) * 3;
+BlockTexel texel_of(const CellLayout& layout, const CellEnergies& energies, size_t cell, float range) {
+    const Energy* e = energies.rgb.data() + cell * 3;
     const glm::u16vec3 voxel = layout.voxels[cell];
     return {int(voxel.y % 4u) * 4 + int(voxel.x % 4u),
             glm::vec3(float(e[0]), float(e[1]), float(e[2])) / range / 1024.0f, layout.opacity[cell]};
 }
 
-void write_block(const std::array<uint8_t, 64>& texels, const glm::ivec3& origin, MipLevel& level) {
-    for (size_t row = 0; row < 4; ++row) {
-        const size_t line = (size_t(origin.z) * size_t(level.size.y) + size_t(origin.y) + row);
-        std::copy_n(texels.begin() + std::ptrdiff_t(row * 16), 16,
-                    level.rgba8.begin() +
-                        std::ptrdiff_t((line * size_t(level.size.x) + size_t(origin.x)) * 4));
+/// @param rgba8  of a brick of `size` texels
+void write_block(const std::array<uint8_t, 64>& texels, const glm::ivec3& origin, const glm::ivec3& size,
+                 std::span<uint8_t> rgba8) {
+    for (int row = 0; row < 4; ++row) {
+        const int line = origin.z * size.y + origin.y + row;
+        std::copy_n(texels.begin() + row * 16, 16, rgba8.begin() + (line * size.x + origin.x) * 4);
     }
-}
-
-void encode_level(const CellLayout& layout, const CellEnergies& energies, size_t tree_level, float range,
-                  MipLevel& level) {
-    constexpr size_t kGrain = 512;
-    const BlockTable table(layout, tree_level, level.size);
-    parallel_for(table.count(), kGrain, [&](size_t begin, size_t end) {
-        std::vector<BlockTexel> texels;
-        for (size_t block = begin; block < end; ++block) {
-            texels.clear();
-            for (const uint32_t cell : table.cells_of(block)) {
-                texels.push_back(texel_of(layout, energies, cell, range));
-            }
-            if (!texels.empty()) {
-                write_block(decode_block(encode_block(texels)), table.origin_of(block), level);
-            }
-        }
-    });
 }
 
 } // namespace
@@ -234,18 +203,18 @@ int block_mip_count(const glm::ivec3& dims) noexcept {
     return count;
 }
 
-void encode_block_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
-                       std::vector<MipLevel>& levels) {
-    CL_ASSERT(energies.rgb.size() == layout.cell_count() * 3, "three energies a cell");
-    levels.resize(size_t(block_mip_count(layout.dims)));
-    CL_ASSERT(!levels.empty(), "expected at least 4 texels on each side");
+void encode_block_brick(const CellLayout& layout, const CellEnergies& energies, const CellRange& cells,
+                        int dynamic_range, const TexelBoxes::Box& box, std::span<uint8_t> rgba8) {
     const float range = float(std::max(dynamic_range, 1));
-    for (size_t m = 0; m < levels.size(); ++m) {
-        const glm::ivec3 size = layout.dims >> int(m);
-        levels[m].size = size;
-        levels[m].rgba8.resize(size_t(size.x) * size_t(size.y) * size_t(size.z) *
-                               4); // the same blocks each time
-        encode_level(layout, energies, size_t(layout.levels) - 1 - m, range, levels[m]);
+    BlockTable table(box.size);
+    for (size_t cell = cells.begin; cell < cells.end; ++cell) {
+        table.add(glm::ivec3(layout.voxels[cell]) - box.offset, texel_of(layout, energies, cell, range));
+    }
+    std::fill(rgba8.begin(), rgba8.end(), uint8_t(0));
+    for (size_t block = 0; block < table.count(); ++block) {
+        if (const std::span<const BlockTexel> texels = table.texels_of(block); !texels.empty()) {
+            write_block(decode_block(encode_block(texels)), table.origin_of(block), box.size, rgba8);
+        }
     }
 }
 

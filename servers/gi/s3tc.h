@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/gi/bricks.h"
 #include "servers/gi/relight.h"
 
 #include <array>
@@ -34,8 +35,10 @@ struct BlockTexel {
 /// not compressed.
 [[nodiscard]] int block_mip_count(const glm::ivec3& dims) noexcept;
 
-/// As encode_mips(), through blocks; block_mip_count() levels, at least one.
-void encode_block_mips(const CellLayout& layout, const CellEnergies& energies, int dynamic_range,
-                       std::vector<MipLevel>& levels);
+/// The texels of one brick, by way of blocks.
+/// @param cells  those of the brick
+/// @param rgba8  box.bytes() of them, replaced; the box has a multiple of 4 texels along x and y, at most 8
+void encode_block_brick(const CellLayout& layout, const CellEnergies& energies, const CellRange& cells,
+                        int dynamic_range, const TexelBoxes::Box& box, std::span<uint8_t> rgba8);
 
 } // namespace cl::gi

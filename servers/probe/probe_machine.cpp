@@ -11,17 +11,9 @@
 namespace cl {
 namespace {
 
-/// Texels kept in memory after their upload, so that the next relight need not allocate. Beyond this (a 256^3
-/// volume has 73 MiB) memory counts for more than the few milliseconds.
-constexpr size_t kMaxKeptTexelBytes = size_t{32} << 20;
-
-size_t texel_bytes(const std::vector<gi::MipLevel>& mips) {
-    size_t bytes = 0;
-    for (const gi::MipLevel& mip : mips) {
-        bytes += mip.rgba8.size();
-    }
-    return bytes;
-}
+/// Texels kept in memory after their upload, so that the next relight need not allocate. Beyond this memory
+/// counts for more than the few milliseconds.
+constexpr size_t kMaxKeptTexelBytes = size_t{16} << 20;
 
 double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -127,12 +119,12 @@ ProbeSignal ProbeMachine::observe(const ProbeWanted& wanted, const LightChanges&
     if (cells_->busy.load(std::memory_order_acquire)) {
         return ProbeSignal::WorkerBusy;
     }
-    return cells_->any_mip_changed() ? ProbeSignal::VolumeNew : ProbeSignal::VolumeSame;
+    return cells_->texels.boxes.empty() ? ProbeSignal::VolumeSame : ProbeSignal::VolumeNew;
 }
 
 Status ProbeMachine::set_up(const ProbeWanted& wanted, Rasterizer& rasterizer) {
     Expected<RID> volume = rasterizer.gi_volume_create(
-        {.size = wanted.layout->dims, .mip_count = mip_count_of(*wanted.layout, wanted.coding)});
+        {.size = wanted.layout->dims, .mip_count = gi::mip_count(*wanted.layout, wanted.coding)});
     if (!volume) {
         unusable_version_ = wanted.data_version;
         return volume.error();
@@ -158,20 +150,20 @@ void ProbeMachine::light(const ProbeWanted& wanted, std::vector<LightEdit> edits
 Status ProbeMachine::upload(Rasterizer& rasterizer) {
     const auto start = std::chrono::steady_clock::now();
     Status status;
-    for (size_t mip = 0; mip < cells_->mips.size() && status.ok(); ++mip) {
-        if (cells_->mip_changed[mip]) {
-            const gi::MipLevel& level = cells_->mips[mip];
-            status = rasterizer.gi_volume_upload(volume_, static_cast<int>(mip), glm::ivec3(0), level.size,
-                                                 level.rgba8);
+    for (const gi::TexelBoxes::Box& box : cells_->texels.boxes) {
+        status = rasterizer.gi_volume_upload(volume_, box.mip, box.offset, box.size,
+                                             cells_->texels.texels_of(box));
+        if (!status) {
+            break;
         }
     }
     if (status.ok()) {
         shown_dynamic_range_ = cells_->encoded_range;
     } else {
-        cells_->encoded_range = 0; // the next relight sends every mip anew
+        cells_->encoded_range = 0; // the next relight sends all texels anew
     }
-    if (texel_bytes(cells_->mips) > kMaxKeptTexelBytes) {
-        cells_->mips = {};
+    if (cells_->texels.rgba8.size() > kMaxKeptTexelBytes) {
+        cells_->texels = {};
     }
     total_upload_ms_ += ms_since(start);
     return status;

@@ -36,7 +36,7 @@ enum class ProbeAction : uint8_t {
     None,
     SetUp,     ///< make an empty volume
     Light,     ///< hand the changes to the worker
-    Upload,    ///< give the rasteriser every mip that changed, all in this step: a volume is never half new
+    Upload,    ///< give the rasteriser all texels that changed, in this step: a volume is never half new
     StartOver, ///< free the volume, let the worker's result go
 };
 

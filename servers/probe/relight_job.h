@@ -11,9 +11,6 @@
 
 namespace cl {
 
-/// Levels of the texture of a layout.
-[[nodiscard]] int mip_count_of(const gi::CellLayout& layout, gi::TexelCoding coding) noexcept;
-
 /// What a probe is to be lit with next.
 struct RelightOrder {
     std::vector<LightEdit> edits; ///< against what the cells hold now
@@ -33,21 +30,17 @@ struct RelightCells {
     gi::TexelCoding coding;
     std::vector<int32_t> leaf_sums; ///< emission and all lights put in so far; empty before the first order
     gi::LightMemory lights;         ///< what some of them put in
-    gi::CellEnergies energies;      ///< of the texels in `mips`
-    std::vector<gi::MipLevel> mips;
-    std::vector<bool> mip_changed; ///< by the last order: these differ, or may differ, from before
-    int encoded_range = 0;         ///< dynamic range of the texels in `mips`; 0: there are none
-    double work_ms = 0.0;          ///< of the last order
+    gi::CellEnergies energies;      ///< of the texels encoded so far
+    gi::TexelBoxes texels;          ///< those that the last order may have changed; none: the texture stays
+    int encoded_range = 0;          ///< dynamic range of the texels encoded so far; 0: there are none
+    double work_ms = 0.0;           ///< of the last order
     std::atomic<bool> busy{false};
     std::atomic<bool> abandoned{false}; ///< the result is not wanted any more: stop early
-
-    [[nodiscard]] int mip_count() const { return mip_count_of(*layout, coding); }
-    [[nodiscard]] bool any_mip_changed() const;
 };
 
-/// Carries out an order: edits the leaves, spreads their energy up the tree, encodes the texels if any energy
-/// differs. Only edits cost a pass over the leaves; the bytes are those of any other history with the same
-/// end. Sets `busy` to false when done.
+/// Carries out an order: edits the leaves, spreads their energy up the tree, encodes the bricks whose
+/// energies differ. Only edits cost a pass over the leaves; the bytes are those of any other history with the
+/// same end. Sets `busy` to false when done.
 void relight(RelightCells& cells, const RelightOrder& order);
 
 } // namespace cl

@@ -66,12 +66,14 @@ void inject_light(benchmark::State& state) {
 }
 BENCHMARK(inject_light)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// The energies of a cell's children are read, and its own is written.
+/// All cells: the energies of a cell's children are read, and its own is written.
 void downsample(benchmark::State& state) {
     Cells& cells = cells_of(int(state.range(0)));
+    float propagation = 0.7f; // another one each time, or nothing would be summed anew
     for (auto _ : state) {
         static_cast<void>(_);
-        gi::energies_from_leaves(cells.layout, cells.leaf_energies, 0.7f, cells.energies);
+        gi::energies_from_leaves(cells.layout, cells.leaf_energies, propagation, cells.energies);
+        propagation = 1.3f - propagation;
     }
     const size_t count = cells.layout.cell_count(), leaves = cells.layout.leaves.size();
     report_bytes(state, leaves * 3 * sizeof(int32_t) + (count - leaves) * sizeof(uint32_t) +
@@ -79,19 +81,21 @@ void downsample(benchmark::State& state) {
 }
 BENCHMARK(downsample)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A cell, its place and energy are read, four bytes are written.
-void encode_mips(benchmark::State& state) {
+/// All bricks: a cell, its place and energy are read, bricks of four bytes a texel are written.
+void encode_bricks(benchmark::State& state) {
     Cells& cells = cells_of(int(state.range(0)));
-    std::vector<gi::MipLevel> levels;
-    gi::encode_mips(cells.layout, cells.energies, 4, levels);
+    gi::CellEnergies fresh;
+    const gi::ChangedBricks all = gi::energies_from_leaves(cells.layout, cells.leaf_energies, 0.7f, fresh);
+    gi::TexelBoxes boxes;
     for (auto _ : state) {
         static_cast<void>(_);
-        gi::encode_mips(cells.layout, cells.energies, 4, levels);
+        gi::encode_bricks(cells.layout, fresh, 4, gi::TexelCoding::Plain, all, boxes);
     }
     report_bytes(state, cells.layout.cell_count() *
-                            (sizeof(uint8_t) + sizeof(glm::u16vec3) + 3 * sizeof(gi::Energy) + 4));
+                                (sizeof(uint8_t) + sizeof(glm::u16vec3) + 3 * sizeof(gi::Energy)) +
+                            boxes.rgba8.size());
 }
-BENCHMARK(encode_mips)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(encode_bricks)->RangeMultiplier(2)->Range(64, 256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
 

@@ -1,12 +1,14 @@
 #include "tests/servers/gi/hand_made_octree.h"
 #include "tests/servers/gi/relight_scene.h"
 
+#include "servers/gi/bricks.h"
 #include "servers/gi/relight.h"
 
 #include "core/threads.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -86,6 +88,42 @@ TEST_SUITE("servers/gi/downsample") {
         gi::energies_from_leaves(layout, sums, 0.7f, four);
         set_thread_count(0);
         CHECK(one.rgb == four.rgb);
+    }
+
+    TEST_CASE("summing anew only what changed gives the energies of all, and names the bricks that differ") {
+        const gi::CellLayout layout = gi::make_layout(busy_octree());
+        Sums sums = gi::emission_energies(layout);
+        gi::CellEnergies energies;
+        for (const std::vector<uint8_t>& bricks :
+             gi::energies_from_leaves(layout, sums, 0.7f, energies).mips) {
+            CHECK(std::count(bricks.begin(), bricks.end(), 1) == ptrdiff_t(bricks.size())); // new
+        }
+        size_t changes = 0;
+        for (const gi::CachedLight& light : busy_lights()) {
+            for (const float propagation : {0.7f, 0.2f}) {
+                const std::vector<gi::Energy> before = energies.rgb;
+                gi::inject_light(layout, light, 1, sums);
+                const gi::ChangedBricks changed =
+                    gi::energies_from_leaves(layout, sums, propagation, energies);
+                gi::CellEnergies fresh;
+                gi::energies_from_leaves(layout, sums, propagation, fresh);
+                REQUIRE(energies.rgb == fresh.rgb);
+                for (size_t mip = 0; mip < size_t(layout.levels); ++mip) {
+                    const gi::MipBricks in = gi::bricks_of_mip(layout, mip);
+                    for (size_t i = 0; i < in.bricks.size(); ++i) {
+                        const size_t brick = in.bricks.begin + i;
+                        const gi::CellRange cells =
+                            gi::cells_below(layout, {brick, brick + 1}, in.texel_level - in.brick_level);
+                        const auto at = [&](size_t cell) { return before.begin() + ptrdiff_t(cell) * 3; };
+                        const bool differs = !std::equal(at(cells.begin), at(cells.end),
+                                                         energies.rgb.begin() + ptrdiff_t(cells.begin) * 3);
+                        REQUIRE((changed.mips[mip][i] != 0) == differs);
+                        changes += differs ? 1 : 0;
+                    }
+                }
+            }
+        }
+        CHECK(changes > 100);
     }
 }
 

@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -41,14 +44,59 @@ TEST_SUITE("servers/gi/light_march") {
         leaves.add(20, 5, 5);
         leaves.add(30, 5, 5);
         const gi::March along_x{{0.5f, 5.5f, 5.5f}, {1, 0, 0}, 30.0f, 1.0f};
-        CHECK(gi::reaches(leaves, along_x, {20, 5, 5}));
-        CHECK_FALSE(gi::reaches(leaves, along_x, {30, 5, 5}));
+        CHECK(gi::reaches(leaves, {along_x, {20, 5, 5}}));
+        CHECK_FALSE(gi::reaches(leaves, {along_x, {30, 5, 5}}));
         const gi::March beside{{0.5f, 6.5f, 5.5f}, {1, 0, 0}, 30.0f, 1.0f};
-        CHECK_FALSE(gi::reaches(leaves, beside, {20, 5, 5}));
+        CHECK_FALSE(gi::reaches(leaves, {beside, {20, 5, 5}}));
         const gi::March backward{{63.5f, 5.5f, 5.5f}, {-1, 0, 0}, 33.0f, 1.0f};
-        CHECK(gi::reaches(leaves, backward, {30, 5, 5}));
+        CHECK(gi::reaches(leaves, {backward, {30, 5, 5}}));
         const gi::March too_short{{0.5f, 5.5f, 5.5f}, {1, 0, 0}, 15.0f, 1.0f};
-        CHECK_FALSE(gi::reaches(leaves, too_short, {20, 5, 5}));
+        CHECK_FALSE(gi::reaches(leaves, {too_short, {20, 5, 5}}));
+    }
+
+    TEST_CASE("marches walked together reach what each reaches by one look at each step") {
+        const glm::ivec3 dims(64, 32, 48);
+        std::mt19937 random(4);
+        const auto cell = [&] { return glm::ivec3(random() % 64, random() % 32, random() % 48); };
+        size_t reached = 0;
+        for (const int leaf_count : {4, 60, 3000}) {
+            gi::LeafBitmap leaves(dims);
+            std::vector<glm::ivec3> added;
+            for (int i = 0; i < leaf_count; ++i) {
+                added.push_back(cell());
+                leaves.add(uint32_t(added.back().x), uint32_t(added.back().y), uint32_t(added.back().z));
+            }
+            leaves.measure_free_space();
+            const auto one_by_one = [&](const gi::AimedMarch& aimed) {
+                glm::vec3 at = aimed.march.from;
+                float left = aimed.march.distance;
+                for (; left > -aimed.march.step; left -= aimed.march.step) {
+                    const glm::ivec3 c(glm::floor(at));
+                    if (leaves.look(c.x, c.y, c.z).leaf) {
+                        return c == aimed.target;
+                    }
+                    at += aimed.march.direction * aimed.march.step;
+                }
+                return false;
+            };
+            for (int i = 0; i < 2000; ++i) {
+                std::array<gi::AimedMarch, gi::kMarchLanes> marches;
+                for (gi::AimedMarch& aimed : marches) {
+                    aimed.target = added[random() % added.size()];
+                    const glm::vec3 to = glm::vec3(aimed.target) + 0.5f;
+                    const glm::vec3 from = glm::vec3(cell() * 2 - 20) + 0.3f; // also outside of the grid
+                    const glm::vec3 direction = glm::normalize(to - from);
+                    aimed.march = {from, direction, glm::length(to - from), gi::advance_of(direction)};
+                }
+                const uint32_t got = gi::reaches_each(leaves, marches);
+                for (size_t lane = 0; lane < marches.size(); ++lane) {
+                    REQUIRE((got >> lane & 1u) == uint32_t(one_by_one(marches[lane])));
+                    REQUIRE((got >> lane & 1u) == uint32_t(gi::reaches(leaves, marches[lane])));
+                }
+                reached += size_t(std::popcount(got));
+            }
+        }
+        CHECK(reached > 1000);
     }
 
     TEST_CASE("free steps never pass a leaf, and save most looks in an empty room") {

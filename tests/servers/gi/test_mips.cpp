@@ -1,9 +1,12 @@
 #include "tests/servers/gi/hand_made_octree.h"
 #include "tests/servers/gi/relight_scene.h"
+#include "tests/servers/gi/whole_mips.h"
 
 #include "servers/gi/relight.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
 
 namespace {
 
@@ -22,9 +25,8 @@ TEST_SUITE("servers/gi/mips") {
         const gi::CellLayout layout =
             gi::make_layout(tests::make_octree({{{1, 2, 3}, kPlusX}}, {64, 32, 64}));
         gi::CellEnergies energies;
-        std::vector<gi::MipLevel> levels;
         gi::energies_from_leaves(layout, Sums{0, 0, 0}, 0.7f, energies);
-        gi::encode_mips(layout, energies, 4, levels);
+        const std::vector<tests::MipLevel> levels = tests::whole_mips(layout, energies, 4);
         REQUIRE(levels.size() == 6);
         CHECK(levels[0].size == glm::ivec3(64, 32, 64));
         CHECK(levels[5].size == glm::ivec3(2, 1, 2));
@@ -34,10 +36,10 @@ TEST_SUITE("servers/gi/mips") {
     TEST_CASE("a texel is energy over the dynamic range, then over four, clipped; empty texels are zero") {
         const gi::CellLayout layout = gi::make_layout(tests::make_octree({{{3, 2, 1}, kPlusX}}));
         gi::CellEnergies energies;
-        std::vector<gi::MipLevel> levels;
+        std::vector<tests::MipLevel> levels;
         const auto texel = [&](int dynamic_range, int32_t energy) {
             gi::energies_from_leaves(layout, Sums{energy, 0, 0}, 1.0f, energies);
-            gi::encode_mips(layout, energies, dynamic_range, levels);
+            levels = tests::whole_mips(layout, energies, dynamic_range);
             return int(levels[0].rgba8[((1 * 64 + 2) * 64 + 3) * 4]);
         };
         CHECK(texel(1, 1024) == 255); // 256, clipped
@@ -59,25 +61,56 @@ TEST_SUITE("servers/gi/mips") {
         CHECK(levels[2].rgba8[3] == 3);
     }
 
-    TEST_CASE("encoding into the levels of a former relight leaves no trace of it") {
+    TEST_CASE("every energy is divided exactly, by any dynamic range") {
         const gi::CellLayout layout = gi::make_layout(busy_octree());
         gi::CellEnergies energies;
-        std::vector<gi::MipLevel> reused;
-        Sums sums = gi::emission_energies(layout);
-        for (const gi::CachedLight& light : busy_lights()) {
-            gi::inject_light(layout, light, 1, sums);
+        const size_t leaves = layout.leaves.size();
+        for (const int dynamic_range : {1, 2, 3, 4, 7, 10, 16, 1000, 16383, 16384, 1 << 30}) {
+            for (int first = 0; first < 65536; first += int(leaves)) {
+                Sums sums;
+                for (int i = 0; i < int(leaves); ++i) {
+                    sums.insert(sums.end(), {first + i, 0, 0});
+                }
+                gi::energies_from_leaves(layout, sums, 1.0f, energies);
+                const std::vector<tests::MipLevel> levels =
+                    tests::whole_mips(layout, energies, dynamic_range);
+                for (int i = 0; i < int(leaves) && first + i < 65536; ++i) {
+                    const glm::ivec3 v(layout.leaves[size_t(i)].voxel);
+                    const int expected = std::min((first + i) / dynamic_range / 4, 255);
+                    REQUIRE(int(levels[0].rgba8[size_t((v.z * 64 + v.y) * 64 + v.x) * 4]) == expected);
+                }
+            }
         }
-        gi::energies_from_leaves(layout, sums, 0.7f, energies);
-        gi::encode_mips(layout, energies, 1, reused);
-        const std::vector<uint8_t> bright = reused[0].rgba8;
-        sums = gi::emission_energies(layout);
-        gi::energies_from_leaves(layout, sums, 0.3f, energies);
-        std::vector<gi::MipLevel> fresh;
-        gi::encode_mips(layout, energies, 4, fresh);
-        gi::encode_mips(layout, energies, 4, reused);
-        CHECK(bright != fresh[0].rgba8);
-        for (size_t m = 0; m < fresh.size(); ++m) {
-            CHECK(fresh[m].rgba8 == reused[m].rgba8);
+    }
+
+    TEST_CASE("bricks that changed, put into the former texture, make the one of a fresh set-up") {
+        const gi::CellLayout layout = gi::make_layout(busy_octree());
+        for (const gi::TexelCoding coding : {gi::TexelCoding::Plain, gi::TexelCoding::Dxt5}) {
+            Sums sums = gi::emission_energies(layout);
+            gi::CellEnergies energies;
+            gi::TexelBoxes boxes;
+            std::vector<tests::MipLevel> levels;
+            size_t bricks_before = 0;
+            for (const gi::CachedLight& light : busy_lights()) {
+                for (const int sign : {1, -1, 1}) {
+                    gi::inject_light(layout, light, sign, sums);
+                    const gi::ChangedBricks changed = gi::energies_from_leaves(layout, sums, 0.7f, energies);
+                    gi::encode_bricks(layout, energies, 4, coding, changed, boxes);
+                    tests::put(layout, coding, boxes, levels);
+                    CHECK((bricks_before == 0 || boxes.boxes.size() < bricks_before));
+                    bricks_before = bricks_before == 0 ? boxes.boxes.size() : bricks_before;
+                    gi::CellEnergies fresh;
+                    gi::energies_from_leaves(layout, sums, 0.7f, fresh);
+                    const std::vector<tests::MipLevel> whole = tests::whole_mips(layout, fresh, 4, coding);
+                    REQUIRE(levels.size() == whole.size());
+                    for (size_t m = 0; m < whole.size(); ++m) {
+                        REQUIRE(levels[m].rgba8 == whole[m].rgba8);
+                    }
+                }
+            }
+            const gi::ChangedBricks none = gi::energies_from_leaves(layout, sums, 0.7f, energies);
+            gi::encode_bricks(layout, energies, 4, coding, none, boxes);
+            CHECK(boxes.boxes.empty());
         }
     }
 }

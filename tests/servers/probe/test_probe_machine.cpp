@@ -3,6 +3,7 @@
 
 #include "drivers/dummy/dummy_rasterizer.h"
 
+#include "servers/gi/bricks.h"
 #include "servers/gi/s3tc.h"
 #include "servers/probe/probe_machine.h"
 #include "servers/rasterizer_checked.h"
@@ -83,6 +84,14 @@ struct Machine {
         }
         return all;
     }
+    /// How many uploads fill the volume.
+    size_t all_bricks() const {
+        size_t bricks = 0;
+        for (int mip = 0; mip < gi::mip_count(*layout, coding); ++mip) {
+            bricks += gi::bricks_of_mip(*layout, static_cast<size_t>(mip)).bricks.size();
+        }
+        return bricks;
+    }
     /// What a machine that never saw another state would show.
     std::vector<uint8_t> fresh_texels() const {
         Machine fresh;
@@ -141,7 +150,7 @@ TEST_SUITE("servers/probe/probe_machine") {
         REQUIRE(m.step());
         CHECK(m.machine.stage() == ProbeStage::Check);
         const int mips = gi::mip_count(m.layout->dims);
-        CHECK(m.dummy->count(CallKind::VolumeUpload) == static_cast<size_t>(mips));
+        CHECK(m.dummy->count(CallKind::VolumeUpload) == m.all_bricks());
         CHECK(m.dummy->volume_desc(m.machine.volume())->mip_count == mips);
         CHECK(has_light(m.texels()));
         CHECK(m.machine.shown_dynamic_range() == 4);
@@ -249,6 +258,16 @@ TEST_SUITE("servers/probe/probe_machine") {
         CHECK(m.dummy->count(CallKind::VolumeUpload) == 0);
     }
 
+    TEST_CASE("only the bricks that changed are uploaded") {
+        SettledMachine m;
+        m.lights.push_back(
+            lamp(2, {20.0f, 2.0f, 2.0f})); // its range of 12 cells ends before the bricks at 32
+        m.settle();
+        CHECK(m.dummy->count(CallKind::VolumeUpload) > 0);
+        CHECK(m.dummy->count(CallKind::VolumeUpload) < m.all_bricks());
+        CHECK(m.texels() == m.fresh_texels());
+    }
+
     TEST_CASE("only the mips that changed are uploaded") {
         SettledMachine m;
         m.propagation = 0.69f; // leaves keep their energy, the levels above do not
@@ -320,7 +339,7 @@ TEST_SUITE("servers/probe/probe_machine") {
         CHECK(m.machine.stage() == ProbeStage::Check);
     }
 
-    TEST_CASE("after an upload that failed the next relight sends every mip") {
+    TEST_CASE("after an upload that failed the next relight sends all texels") {
         SettledMachine m;
         m.lights[0].light.energy = 2.0f;
         REQUIRE(m.step());
@@ -331,7 +350,7 @@ TEST_SUITE("servers/probe/probe_machine") {
         CHECK(!m.machine.is_pending(m.wanted())); // no retry without end
         m.propagation = 0.69f;
         m.settle();
-        CHECK(m.dummy->count(CallKind::VolumeUpload) == static_cast<size_t>(gi::mip_count(m.layout->dims)));
+        CHECK(m.dummy->count(CallKind::VolumeUpload) == m.all_bricks());
         CHECK(m.texels() == m.fresh_texels());
     }
 
