@@ -104,6 +104,22 @@ def sphere_room():
     return s
 
 
+def glossy_room():
+    """Plastic and metal, from sharp to blurred reflections; sun on the outside of the walls that these must not show."""
+    s = Scene()
+    s.light_specular = 1
+    s.shell((4, 3, 4), {**dict.fromkeys(("ceiling", "front"), s.material(WHITE)),
+                        "floor": s.material((.5, .45, .4), gloss=(.3, 0)), "back": s.material(WHITE, gloss=(.55, 0)),
+                        "left": s.material(RED, gloss=(.15, 0)), "right": s.material(GREEN)})
+    s.box("Metal", s.material((.9, .7, .4), gloss=(.25, 1)), (-.8, .8, -.7), (1, 1.6, 1), rotation(25))
+    s.sphere("Ball", s.material((.7, .7, .75), gloss=(.45, 1)), (.8, .6, -.2), .6)
+    s.omni("Lamp", (.3, 2.5, .6), (1, .95, .85), .6, 7)
+    s.sun("Sun", (-.5, -1, -.4), energy=4)
+    s.camera((.2, 1.6, 1.8), (-.1, .9, -1), 75)
+    s.probe("Probe", (0, 1.5, 0), (2.6, 2.1, 2.6))
+    return s
+
+
 def cornell(world=(np.eye(3), np.zeros(3)), probe_world=None):
     """A box room with two blocks and a lamp; the laws turn, mirror, move and scale it."""
     s = Scene(world)
@@ -207,8 +223,8 @@ def slats():
     return s
 
 
-SCENES = (neon_room, bright_corridor, two_rooms, stairs, many_boxes, sphere_room, rotated_room, sky_window, eight_lamps,
-          large_hall, textured_room, slats)
+SCENES = (neon_room, bright_corridor, two_rooms, stairs, many_boxes, sphere_room, glossy_room, rotated_room, sky_window,
+          eight_lamps, large_hall, textured_room, slats)
 
 
 def png(rgb):

@@ -1,7 +1,8 @@
 """Writes small diffuse scenes in Godot 3's text format.
 
-Metres, degrees, linear colours (sRGB-encoded when written). Every material is Lambert without specular light, so that
-pictures can be compared in radiance. Bases are 3 x 3 arrays whose columns are the images of the axes.
+Metres, degrees, linear colours (sRGB-encoded when written). Materials are Lambert without specular light, so that
+pictures can be compared in radiance, unless they are given gloss. Bases are 3 x 3 arrays whose columns are the images of
+the axes.
 """
 import math
 
@@ -56,6 +57,7 @@ class Scene:
         self.cube = self.resource("CubeMesh", "size = Vector3( 1, 1, 1 )")
         self.ball = self.resource("SphereMesh", "radius = 1.0\nheight = 2.0\nradial_segments = 64\nrings = 32")
         self.background = self.ambient = None
+        self.light_specular = 0  # of lamps added from now on
 
     def resource(self, kind, body):
         self.resources.append((kind, body))
@@ -71,9 +73,12 @@ class Scene:
         flip = np.diag([math.copysign(1, np.linalg.det(self.basis)), 1, 1])
         return np.linalg.inv(self.basis) @ (self.basis / self.scale) @ basis @ flip
 
-    def material(self, albedo, emission=None, energy=1.0, texture=None, uv_scale=1.0):
-        body = (f"albedo_color = {color(albedo)}\nroughness = 1.0\nmetallic_specular = 0.0\n"
-                "params_diffuse_mode = 1\nparams_specular_mode = 4")
+    def material(self, albedo, emission=None, energy=1.0, texture=None, uv_scale=1.0, gloss=None):
+        """`gloss`: (roughness, metallic) of a material that reflects."""
+        matt = "roughness = 1.0\nmetallic_specular = 0.0\nparams_diffuse_mode = 1\nparams_specular_mode = 4"
+        body = f"albedo_color = {color(albedo)}\n"
+        body += matt if gloss is None else (f"roughness = {number(gloss[0])}\nmetallic = {number(gloss[1])}\n"
+                                            "params_diffuse_mode = 1")
         if emission is not None:
             body += (f"\nemission_enabled = true\nemission = {color(emission)}\nemission_energy = {number(energy)}\n"
                      "emission_operator = 0\nemission_on_uv2 = false")
@@ -108,7 +113,7 @@ class Scene:
 
     def light(self, kind, name, basis, origin, tint, energy, body, shadow=True):
         self.node(kind, name, self.rigid(basis), origin,
-                  f"light_color = {color(tint)}\nlight_energy = {number(energy)}\nlight_specular = 0.0\n"
+                  f"light_color = {color(tint)}\nlight_energy = {number(energy)}\nlight_specular = {float(self.light_specular)}\n"
                   f"shadow_enabled = {'true' if shadow else 'false'}{body}")
 
     def omni(self, name, origin, tint=(1, 1, 1), energy=1.0, reach=8.0):
