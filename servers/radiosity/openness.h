@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,13 @@ namespace cl::radiosity {
 /// most rays meet the backs of surfaces: it lies inside a solid.
 [[nodiscard]] float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& normal,
                              float cell_m) noexcept;
+
+/// openness() of several points of one plane. What a point inside a solid sees is inside it, too: one ray
+/// tells so, and most of what is asked about is buried.
+/// @param point_inside  one of the plane's, if one is known
+[[nodiscard]] std::vector<float> openness_of_all(const RayScene& rays, std::span<const glm::vec3> points,
+                                                 const glm::vec3& normal, float cell_m,
+                                                 std::optional<glm::vec3> point_inside);
 
 /// The space that each of some points of one plane borders on: the number of the first point that it can be
 /// reached from, by steps from one to another in sight of it.
