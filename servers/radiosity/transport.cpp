@@ -140,14 +140,9 @@ void add_exchanges(Transport& t) {
 } // namespace
 
 size_t Transport::bytes() const noexcept {
-    size_t air_bytes = 0;
-    for (const AirPoints& a : air) {
-        air_bytes += a.links.targets.size() * (sizeof(uint32_t) + sizeof(uint8_t)) +
-                     a.links.points.size() * sizeof(Links::Point);
-    }
     const size_t per_patch = 5 * sizeof(glm::vec3) + 2 * sizeof(uint64_t);
     return patches.size() * per_patch + records.links.targets.size() * sizeof(uint32_t) +
-           records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange) + air_bytes;
+           records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange);
 }
 
 Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<const StillScene>& scene,
@@ -158,8 +153,7 @@ Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<
         return rays.error();
     }
     const Error cancelled{ErrorCode::Cancelled, "light transport: cancelled"};
-    auto t =
-        std::make_shared<Transport>(Transport{scene, std::move(*rays), {}, {}, probes.size(), {}, {}, {}});
+    auto t = std::make_shared<Transport>(Transport{scene, std::move(*rays), {}, {}, probes.size(), {}, {}});
     t->patches = make_patches(*scene, t->rays, make_grids(*scene, probes), probes.size());
     if (stop) {
         return cancelled;
@@ -167,9 +161,6 @@ Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<
     t->records = make_records(*scene, t->rays, t->patches);
     if (stop) {
         return cancelled;
-    }
-    for (size_t i = 0; i < probes.size() && !stop; ++i) {
-        t->air.push_back(make_air_points(*scene, t->rays, t->patches, t->patches.grids[i].cells));
     }
     add_exchanges(*t);
     if (stop) {
