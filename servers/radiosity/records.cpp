@@ -2,8 +2,10 @@
 
 #include "servers/radiosity/emitter_tree.h"
 #include "servers/radiosity/emitters.h"
+#include "servers/radiosity/open_skies.h"
 #include "servers/radiosity/sampling.h"
 
+#include "core/math/aabb.h"
 #include "core/threads.h"
 
 #include <glm/geometric.hpp>
@@ -67,18 +69,23 @@ struct Draft {
     uint32_t patch = 0;
     int level = 0;
     RayFan fan;
+    uint32_t rays = 0;    ///< it is to have in the end
+    bool is_open = false; ///< nothing is before it but sky
 };
 
 class Placer {
 public:
     Placer(const StillScene& scene, const RayScene& rays, const Patches& patches)
-        : scene_(scene), rays_(rays), patches_(patches) {}
+        : scene_(scene), rays_(rays), patches_(patches), bounds_(scene.bounds()) {}
 
     /// Places the records of a run of patches that share a block of `level`.
     void place(std::span<const Placed> run, int level, std::vector<Draft>& out) const {
         for (const std::vector<Placed>& group : facing_groups(run)) {
-            Draft draft{central_patch(group), level, {}};
-            trace(draft, 0, kProbeRays);
+            Draft draft{central_patch(group), level, {}, 0, false};
+            draft.is_open = is_open(draft.patch);
+            if (!draft.is_open) {
+                trace(draft, 0, kProbeRays);
+            }
             const float spacing_m = cell_m(draft.patch) * float(1 << level);
             if (level == 0 || spacing_m <= kSpacingPerDistance * draft.fan.mean_distance_m()) {
                 out.push_back(std::move(draft));
@@ -90,8 +97,11 @@ public:
     /// Traces the rays a record still lacks. @param share  of the full number
     /// @return what emitters send it
     glm::vec3 finish(Draft& draft, float share, const Emitters& emitters) const {
-        const uint32_t rays = std::max(uint32_t(share * float(kRays[draft.level])), kLeastRays);
-        trace(draft, draft.fan.ray_count, rays);
+        draft.rays = std::max(uint32_t(share * float(kRays[draft.level])), kLeastRays);
+        if (draft.is_open) {
+            return glm::vec3(0.0f);
+        }
+        trace(draft, draft.fan.ray_count, draft.rays);
         if (emitters.empty()) {
             return glm::vec3(0.0f);
         }
@@ -104,6 +114,14 @@ public:
 private:
     [[nodiscard]] float cell_m(uint32_t patch) const noexcept {
         return patches_.grids[patches_.grid[patch]].cells.cell_m;
+    }
+
+    /// True if all of the scene lies behind a patch. The outer sides of buildings need no rays.
+    [[nodiscard]] bool is_open(uint32_t patch) const noexcept {
+        const glm::vec3 normal = patches_.normal[patch];
+        const float foremost_m = glm::dot(normal, bounds_.center() - patches_.position[patch]) +
+                                 glm::dot(glm::abs(normal), 0.5f * bounds_.size);
+        return foremost_m < kLift * cell_m(patch);
     }
 
     void place_parts(std::span<const Placed> group, int level, std::vector<Draft>& out) const {
@@ -158,6 +176,7 @@ private:
     const StillScene& scene_;
     const RayScene& rays_;
     const Patches& patches_;
+    AABB bounds_; ///< of the scene
 };
 
 /// Runs of patches that share a block of the top level.
@@ -238,6 +257,9 @@ private:
         const uint32_t at = records_.patch[record];
         const float spacing_m = records_.spacing_m[record];
         const glm::vec3 apart = patches_.position[patch] - patches_.position[at];
+        if (glm::dot(apart, apart) >= 4.0f * spacing_m * spacing_m) {
+            return 0.0f; // most of them: without a root
+        }
         const float near = 1.0f - glm::length(apart) / (2.0f * spacing_m);
         const float facing = (glm::dot(patches_.normal[patch], patches_.normal[at]) - 0.6f) / 0.4f;
         const float off_plane = std::abs(glm::dot(patches_.normal[patch], apart)) / spacing_m;
@@ -328,8 +350,18 @@ void finish_links(const Placer& placer, const Patches& patches, std::vector<Draf
             std::sort(drafts[i].fan.patches.begin(), drafts[i].fan.patches.end());
         }
     });
+    size_t targets = 0;
+    for (const Draft& d : drafts) {
+        targets += d.is_open ? 0 : d.fan.patches.size() + d.fan.skies.size();
+    }
+    records.links.targets.reserve(targets);
+    OpenSkies open_skies(records.links);
     for (Draft& d : drafts) {
-        append_point(records.links, d.fan);
+        if (d.is_open) {
+            open_skies.append_point(patches.normal[d.patch], d.rays);
+        } else {
+            append_point(records.links, d.fan);
+        }
         d.fan = {}; // its memory is in the lists now
     }
 }
@@ -389,7 +421,7 @@ Records make_records(const StillScene& scene, const RayScene& rays, const Patche
     for (uint32_t p = 0; p < of_patch.size(); ++p) {
         if (of_patch[p].empty()) {
             of_patch[p] = {{uint32_t(drafts.size()), 1.0f}};
-            drafts.push_back({p, 0, {}});
+            drafts.push_back({p, 0, {}, 0, false}); // open or not, rays tell
             add(drafts.back());
         }
     }

@@ -31,14 +31,6 @@ AABB with_margin(const AABB& box, int cells) {
     return box.grown(longest_m * float(kProbeMargin) / float(std::max(cells - 2 * kProbeMargin, 1)));
 }
 
-AABB bounds_of(const StillScene& scene) {
-    AABB box{scene.positions.empty() ? glm::vec3(0.0f) : scene.positions[0], glm::vec3(0.0f)};
-    for (const glm::vec3& p : scene.positions) {
-        box = box.merged({p, glm::vec3(0.0f)});
-    }
-    return box;
-}
-
 bool covers(const AABB& outer, const AABB& inner) noexcept {
     return glm::all(glm::lessThanEqual(outer.position, inner.position)) &&
            glm::all(glm::greaterThanEqual(outer.position + outer.size, inner.position + inner.size));
@@ -64,7 +56,7 @@ std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeB
         grids.push_back(grid_of_box(p.world_from_probe, with_margin(p.box, cells), cells));
         all = all.merged(transformed(p.world_from_probe, p.box));
     }
-    const AABB bounds = bounds_of(scene);
+    const AABB bounds = scene.bounds();
     for (int i = 1; i <= kMaxOuterGrids && !covers(all, bounds); ++i) {
         all = {all.position - 0.5f * all.size, 2.0f * all.size};
         grids.push_back(grid_of_box({}, all, kOuterCells));

@@ -110,6 +110,27 @@ TEST_SUITE("servers/radiosity/laws") {
         }
     }
 
+    TEST_CASE("faces of a box alone under a graded sky receive what the integral says") {
+        RoomBuilder builder;
+        builder.box(builder.material(glm::vec3(0.8f)), glm::vec3(0.0f), {0.9f, 0.7f, 0.5f});
+        const ProbeBox probe = probe_with_cells(0.1f, 1.4f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        Lighting lighting = darkness();
+        for (uint32_t bin = 0; bin < kSkyBins; ++bin) {
+            lighting.sky[bin] = glm::vec3(1.0f + sky_direction(bin).y);
+        }
+        const Solution solution = room.solve(lighting);
+        for (size_t p = 0; p < solution.arriving.size(); ++p) {
+            // The mean of the cosine to an axis over the hemisphere about n, weighted by the cosine, is 2/3
+            // of that of n.
+            const float expected = 1.0f + 2.0f / 3.0f * room.transport->patches.normal[p].y;
+            CHECK(solution.arriving[p].x == doctest::Approx(expected).epsilon(0.01));
+        }
+        // Six lists for all of them.
+        const Links& links = room.transport->records.links;
+        CHECK(links.targets.size() < 10 * links.points[0].ray_count);
+    }
+
     TEST_CASE("in a closed room of coloured walls each channel bounces until all its light is there") {
         RoomBuilder builder;
         const glm::vec3 albedo(0.9f, 0.5f, 0.1f);
