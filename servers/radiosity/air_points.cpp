@@ -30,7 +30,7 @@ RayFan gather_from(const Transport& t, const glm::vec3& at, std::span<const glm:
         for (size_t i = 0; i < count; ++i) {
             asked[i] = {at, directions[begin + i]};
         }
-        add_rays(*t.scene, t.rays, t.patches, std::span(asked).first(count), fan);
+        add_rays(t.rays, t.patches, std::span(asked).first(count), fan);
         // A quarter of the rays on the backs of surfaces: inside a solid, or behind a wall that has no back.
         if (fan.back_count * 4 > directions.size()) {
             return {};

@@ -170,7 +170,7 @@ private:
         for (uint32_t i = from; i < to; ++i) {
             asked.push_back({origin, frame.direction(r2_point(i, start))});
         }
-        add_rays(scene_, rays_, patches_, asked, draft.fan);
+        add_rays(rays_, patches_, asked, draft.fan);
     }
 
     const StillScene& scene_;
@@ -345,9 +345,7 @@ void finish_links(const Placer& placer, const Patches& patches, std::vector<Draf
     parallel_for(drafts.size(), 16, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             records.emitted[i] = placer.finish(drafts[i], share, emitters);
-            // In the order of memory: a relight reads them faster, and parts of the list are parts of the
-            // scene.
-            std::sort(drafts[i].fan.patches.begin(), drafts[i].fan.patches.end());
+            sort_patches(drafts[i].fan.patches, patches.size());
         }
     });
     size_t targets = 0;
