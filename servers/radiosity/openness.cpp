@@ -115,22 +115,21 @@ float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& no
         }
         look(rays, some, cell_m, outlook);
         if (outlook.is_inside()) {
-            return -1.0f;
+            return outlook.backs + outlook.unclear == begin + kHalf ? kBuried : kInside;
         }
     }
     return median(outlook.distances_m);
 }
 
 std::vector<float> openness_of_all(const RayScene& rays, std::span<const glm::vec3> points,
-                                   const glm::vec3& normal, float cell_m,
-                                   std::optional<glm::vec3> point_inside) {
+                                   const glm::vec3& normal, float cell_m, std::optional<glm::vec3> buried) {
     std::vector<float> open_m;
     for (const glm::vec3& p : points) {
-        const bool is_inside = point_inside && !rays.is_blocked(lifted(*point_inside, normal, cell_m),
-                                                                lifted(p, normal, cell_m));
-        open_m.push_back(is_inside ? -1.0f : openness(rays, p, normal, cell_m));
-        if (open_m.back() < 0.0f) {
-            point_inside = p;
+        const bool sees_buried =
+            buried && !rays.is_blocked(lifted(*buried, normal, cell_m), lifted(p, normal, cell_m));
+        open_m.push_back(sees_buried ? kBuried : openness(rays, p, normal, cell_m));
+        if (open_m.back() == kBuried) {
+            buried = p;
         }
     }
     return open_m;

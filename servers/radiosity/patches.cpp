@@ -79,8 +79,8 @@ public:
                 draft.position = middle;
                 out.push_back(draft);
             } else {
-                const bool is_inside = draft.openness_m < 0.0f;
-                add_spaces(c, draft, grid, is_inside ? std::optional(middle) : std::nullopt, out);
+                const bool is_buried = draft.openness_m == kBuried;
+                add_spaces(c, draft, grid, is_buried ? std::optional(middle) : std::nullopt, out);
             }
         }
     }
@@ -148,12 +148,11 @@ private:
         return points;
     }
 
-    /// A patch for each space that a cluster borders on. @param point_inside  one of it in a solid, if known
+    /// A patch for each space that a cluster borders on. @param buried  a point of it that is, if known
     void add_spaces(const Cluster& c, const Draft& draft, const CellGrid& grid,
-                    const std::optional<glm::vec3>& point_inside, std::vector<Draft>& out) const {
+                    const std::optional<glm::vec3>& buried, std::vector<Draft>& out) const {
         const std::vector<glm::vec3> asked = candidates(c, grid);
-        const std::vector<float> all_m =
-            openness_of_all(rays_, asked, draft.normal, grid.cell_m, point_inside);
+        const std::vector<float> all_m = openness_of_all(rays_, asked, draft.normal, grid.cell_m, buried);
         std::vector<glm::vec3> points;
         std::vector<float> open_m;
         for (size_t i = 0; i < asked.size(); ++i) {
