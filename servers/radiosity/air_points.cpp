@@ -120,7 +120,7 @@ std::vector<bool> beside_surfaces(const Patches::Grid& grid, const glm::ivec3& d
         for (int z = first.z; z <= last.z; ++z) {
             for (int y = first.y; y <= last.y; ++y) {
                 for (int x = first.x; x <= last.x; ++x) {
-                    beside[size_t((z * dims.y + y) * dims.x + x)] = true;
+                    beside[(size_t(z) * size_t(dims.y) + size_t(y)) * size_t(dims.x) + size_t(x)] = true;
                 }
             }
         }
