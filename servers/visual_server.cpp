@@ -45,6 +45,20 @@ bool VisualServer::Impl::gi_is_settled() {
     return settings.gi_mode == GIMode::Auto ? fields.is_settled() : probes.is_settled();
 }
 
+/// Light transport takes about as long as a driver takes to compile shaders, which it does when something is
+/// drawn with them: so viewports are, out of turn and before they can show anything.
+void VisualServer::Impl::compile_shaders_meanwhile() {
+    if (!lights_by_gi() || settings.gi_mode != GIMode::Auto || !fields.is_starting()) {
+        return;
+    }
+    viewports.for_each([this](RID, Viewport& viewport) {
+        if (!viewport.drawn && !viewport.to_window) {
+            static_cast<void>(draw_viewport(viewport)); // what is wrong with it, draw() will tell
+            viewport.drawn = false;
+        }
+    });
+}
+
 Status VisualServer::draw() {
     FirstError errors;
     bool to_window = false;
@@ -72,6 +86,7 @@ void VisualServer::settle() {
         if (impl_->gi_is_settled()) {
             return;
         }
+        impl_->compile_shaders_meanwhile();
         impl_->worker.wait();
     }
     log_warning("GI probes did not come to rest");

@@ -127,7 +127,8 @@ public:
     /// One frame: instances, viewports, then one step of each probe's state machine, as Godot orders it
     /// (spec gi-update section 2). @return the first error of the rasteriser.
     Status draw();
-    /// Steps the probes without drawing until none has anything to do: what is drawn next is settled.
+    /// Steps the probes until none has anything to do: what is drawn next is settled. While it waits for the
+    /// first light of all, it has the shaders compiled of viewports that were not drawn yet.
     void settle();
     /// True while a probe is being lit or uploaded, or would be on the next step.
     [[nodiscard]] bool is_settled();

@@ -49,6 +49,7 @@ struct VisualServer::Impl {
     [[nodiscard]] bool lights_by_gi() const;
     Status step_gi(FieldDriver::Rest rest);
     [[nodiscard]] bool gi_is_settled();
+    void compile_shaders_meanwhile();
     Status ensure_target(Viewport& viewport);
     Status draw_viewport(Viewport& viewport);
 

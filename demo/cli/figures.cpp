@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <iostream>
 #include <sys/resource.h>
 
@@ -43,12 +42,6 @@ Json path_json(const PathFigures& p) {
             {"seed", p.seed},
             {"rays", p.rays},
             {"rays_per_s", p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0}};
-}
-
-int64_t now_ns() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
 }
 
 } // namespace
@@ -96,12 +89,6 @@ double peak_rss_mib() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024.0; // ru_maxrss is in KiB on Linux
-}
-
-Stopwatch::Stopwatch() : start_ns_(now_ns()) {}
-
-double Stopwatch::elapsed_ms() const {
-    return static_cast<double>(now_ns() - start_ns_) * 1e-6;
 }
 
 } // namespace cl::demo

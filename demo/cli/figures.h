@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/expected.h"
+#include "core/stopwatch.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -51,15 +52,5 @@ struct Figures {
 [[nodiscard]] Status write_json(const std::string& json, const std::filesystem::path& path);
 /// Most memory this process has had resident so far [MiB].
 [[nodiscard]] double peak_rss_mib();
-
-/// Milliseconds since construction.
-class Stopwatch {
-public:
-    Stopwatch();
-    [[nodiscard]] double elapsed_ms() const;
-
-private:
-    int64_t start_ns_;
-};
 
 } // namespace cl::demo

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -174,15 +175,18 @@ Expected<RID> DummyRasterizer::gi_field_create(const GIFieldDesc& desc) {
     return rid;
 }
 
-Status DummyRasterizer::gi_field_upload(RID rid, std::span<const uint32_t> light, std::span<const uint16_t>) {
+Status DummyRasterizer::gi_field_upload(RID rid, std::span<const uint32_t> light,
+                                        std::span<const uint16_t> air) {
     if (auto failure = take_failure(CallKind::FieldUpload)) {
         return *failure;
     }
     if (!fields_.get(rid)) {
         return stale("GI field");
     }
-    record(CallKind::FieldUpload, rid, {static_cast<int>(light.size()), 1, 1}, 0,
-           {reinterpret_cast<const uint8_t*>(light.data()), light.size_bytes()});
+    std::vector<uint8_t> bytes(light.size_bytes() + air.size_bytes());
+    std::memcpy(bytes.data(), light.data(), light.size_bytes());
+    std::memcpy(bytes.data() + light.size_bytes(), air.data(), air.size_bytes());
+    record(CallKind::FieldUpload, rid, {static_cast<int>(light.size()), 1, 1}, 0, bytes);
     return {};
 }
 

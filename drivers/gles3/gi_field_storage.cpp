@@ -9,9 +9,17 @@ namespace cl::gles3 {
 
 namespace {
 
-/// A list as a texture of full rows; as few rows as hold it, at least one.
+/// As large or a little larger. llvmpipe compiles a shader again for textures whose sizes are powers of two
+/// if those before were not: with sizes that never are, the shaders that the empty field was drawn with are
+/// the ones that real fields need. Large sizes stay: drivers have their limits.
+int no_power_of_two(int size) noexcept {
+    const bool is_power = (size & (size - 1)) == 0;
+    return size < 3 ? 3 : (is_power && size < 1024 ? size + 1 : size);
+}
+
+/// A list as a texture of full rows; about as few rows as hold it.
 Expected<gl::Texture2D> make_list(gl::Format format, size_t entries, std::string_view label) {
-    const int rows = static_cast<int>(std::max<size_t>((entries + kFieldRow - 1) / kFieldRow, 1));
+    const int rows = no_power_of_two(static_cast<int>((entries + kFieldRow - 1) / kFieldRow));
     return gl::Texture2D::create({.size = {kFieldRow, rows},
                                   .format = format,
                                   .sampler = {.filter = gl::Filter::Nearest},
@@ -48,14 +56,17 @@ Expected<StoredField> make_field(const GIFieldDesc& desc) {
     if (!light) {
         return light.error();
     }
-    Expected<gl::Texture3D> air = gl::Texture3D::create({.size = desc.air,
+    const glm::ivec3 air_size(no_power_of_two(desc.air.x), no_power_of_two(desc.air.y),
+                              no_power_of_two(desc.air.z));
+    Expected<gl::Texture3D> air = gl::Texture3D::create({.size = air_size,
                                                          .format = gl::Format::RGBA16F,
                                                          .sampler = {.filter = gl::Filter::Linear},
                                                          .label = "GI air"});
     if (!air) {
         return air.error();
     }
-    StoredField field{*std::move(bricks), *std::move(joints), *std::move(light), *std::move(air), slots};
+    StoredField field{*std::move(bricks), *std::move(joints), *std::move(light),
+                      *std::move(air),    desc.air,           slots};
     if (Status s = fill_list(field.bricks, desc.brick_words, 4); !s) {
         return s.error();
     }
@@ -101,7 +112,7 @@ Status GIFieldStorage::upload(RID rid, std::span<const uint32_t> light, std::spa
     if (Status s = fill_list(field->light, light, 1); !s) {
         return s;
     }
-    return field->air.upload(0, glm::ivec3(0), field->air.size(), std::as_bytes(air));
+    return field->air.upload(0, glm::ivec3(0), field->air_size, std::as_bytes(air));
 }
 
 } // namespace cl::gles3

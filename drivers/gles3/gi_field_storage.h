@@ -16,10 +16,11 @@ namespace cl::gles3 {
 
 /// A scenario's GI field: lists in rows of kFieldRow texels, air as a volume.
 struct StoredField {
-    gl::Texture2D bricks; ///< RGBA32UI
-    gl::Texture2D joints; ///< RG32UI
-    gl::Texture2D light;  ///< RGB9E5
-    gl::Texture3D air;    ///< RGBA16F
+    gl::Texture2D bricks;   ///< RGBA32UI
+    gl::Texture2D joints;   ///< RG32UI
+    gl::Texture2D light;    ///< RGB9E5
+    gl::Texture3D air;      ///< RGBA16F
+    glm::ivec3 air_size{0}; ///< what of it is in use [texels]
     size_t slots = 0;
 };
 

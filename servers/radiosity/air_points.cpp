@@ -4,37 +4,48 @@
 
 #include "core/threads.h"
 
+#include <glm/common.hpp>
+
+#include <algorithm>
 #include <array>
 #include <deque>
+#include <span>
 
 namespace cl::radiosity {
 namespace {
 
-constexpr uint32_t kRays = 64;
 constexpr uint32_t kNoPoint = 0xFFFFFFFFu;
 
+constexpr uint32_t rays_for(AirUse use) noexcept {
+    return use == AirUse::Gaps ? 32 : 64;
+}
+
 /// Light from all around; no rays if the point lies inside a solid.
-RayFan gather_from(const StillScene& scene, const RayScene& rays, const Patches& patches, const glm::vec3& at,
-                   std::span<const glm::vec3> directions) {
-    std::array<Ray, kRays> asked;
-    for (size_t i = 0; i < kRays; ++i) {
-        asked[i] = {at, directions[i]};
-    }
+RayFan gather_from(const Transport& t, const glm::vec3& at, std::span<const glm::vec3> directions) {
+    constexpr size_t kBatch = 16;
+    std::array<Ray, kBatch> asked;
     RayFan fan;
-    add_rays(scene, rays, patches, asked, fan);
-    // A quarter of the rays on the backs of surfaces: inside a solid, or behind a wall that has no back.
-    return fan.back_count * 4 > kRays ? RayFan{} : fan;
+    for (size_t begin = 0; begin < directions.size(); begin += kBatch) {
+        const size_t count = std::min(kBatch, directions.size() - begin);
+        for (size_t i = 0; i < count; ++i) {
+            asked[i] = {at, directions[begin + i]};
+        }
+        add_rays(t.rays, t.patches, std::span(asked).first(count), fan);
+        // A quarter of the rays on the backs of surfaces: inside a solid, or behind a wall that has no back.
+        if (fan.back_count * 4 > directions.size()) {
+            return {};
+        }
+    }
+    return fan;
 }
 
 /// A point may lie in a solid and its brick not: other places of the brick are tried.
-RayFan gather_near(const StillScene& scene, const RayScene& rays, const Patches& patches,
-                   const CellGrid& grid, const glm::vec3& centre_cells,
+RayFan gather_near(const Transport& t, const CellGrid& grid, const glm::vec3& centre_cells,
                    std::span<const glm::vec3> directions) {
     static constexpr glm::vec3 kOffsets[] = {
         {0, 0, 0}, {1.2f, 1.2f, 1.2f}, {-1.2f, 1.2f, -1.2f}, {1.2f, -1.2f, -1.2f}, {-1.2f, -1.2f, 1.2f}};
     for (const glm::vec3& offset : kOffsets) {
-        RayFan fan =
-            gather_from(scene, rays, patches, grid.world_from_cells.xform(centre_cells + offset), directions);
+        RayFan fan = gather_from(t, grid.world_from_cells.xform(centre_cells + offset), directions);
         if (fan.ray_count > 0) {
             return fan;
         }
@@ -58,7 +69,7 @@ std::array<float, 6> reach_from(const RayScene& rays, const CellGrid& grid, cons
     return reach;
 }
 
-/// Each point in a solid shows the nearest one that is not, so that filtering finds light on every side.
+/// Each point without rays shows the nearest one that has some: filtering finds light on every side.
 std::vector<uint32_t> spread(const Links& links, const glm::ivec3& dims) {
     std::vector<uint32_t> stand_in(links.points.size(), kNoPoint);
     std::deque<uint32_t> queue;
@@ -91,26 +102,51 @@ std::vector<uint32_t> spread(const Links& links, const glm::ivec3& dims) {
     return stand_in;
 }
 
-} // namespace
+glm::ivec3 place_of(size_t number, const glm::ivec3& dims) noexcept {
+    const int n = int(number);
+    return {n % dims.x, n / dims.x % dims.y, n / (dims.x * dims.y)};
+}
 
-AirPoints make_air_points(const StillScene& scene, const RayScene& rays, const Patches& patches,
-                          const CellGrid& grid) {
+/// Bricks that hold patches, and those around them.
+std::vector<bool> beside_surfaces(const Patches::Grid& grid, const glm::ivec3& dims) {
+    const std::span<const CellIndex::Brick> bricks = grid.index.bricks();
+    std::vector<bool> beside(bricks.size(), false);
+    for (size_t i = 0; i < bricks.size(); ++i) {
+        if ((bricks[i].low | bricks[i].high) == 0) {
+            continue;
+        }
+        const glm::ivec3 first = glm::max(place_of(i, dims) - 1, 0);
+        const glm::ivec3 last = glm::min(place_of(i, dims) + 1, dims - 1);
+        for (int z = first.z; z <= last.z; ++z) {
+            for (int y = first.y; y <= last.y; ++y) {
+                for (int x = first.x; x <= last.x; ++x) {
+                    beside[(size_t(z) * size_t(dims.y) + size_t(y)) * size_t(dims.x) + size_t(x)] = true;
+                }
+            }
+        }
+    }
+    return beside;
+}
+
+AirPoints make_air_points(const Transport& t, const Patches::Grid& grid, AirUse use) {
     AirPoints air;
-    air.dims = grid.bricks();
-    for (uint32_t i = 0; i < kRays; ++i) {
+    air.dims = grid.cells.bricks();
+    for (uint32_t i = 0; i < rays_for(use); ++i) {
         air.directions.push_back(sphere_direction(r2_point(i, glm::vec2(0.5f))));
     }
     std::vector<RayFan> fans(size_t(air.dims.x) * size_t(air.dims.y) * size_t(air.dims.z));
+    const std::vector<bool> wanted =
+        use == AirUse::Gaps ? beside_surfaces(grid, air.dims) : std::vector<bool>(fans.size(), true);
     air.reach.resize(fans.size());
     parallel_for(fans.size(), 64, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const int n = int(i);
-            const glm::ivec3 brick(n % air.dims.x, n / air.dims.x % air.dims.y,
-                                   n / (air.dims.x * air.dims.y));
-            const glm::vec3 centre(brick * 4 + 2);
-            fans[i] = gather_near(scene, rays, patches, grid, centre, air.directions);
+            if (!wanted[i]) {
+                continue;
+            }
+            const glm::vec3 centre(place_of(i, air.dims) * 4 + 2);
+            fans[i] = gather_near(t, grid.cells, centre, air.directions);
             if (fans[i].ray_count > 0) {
-                air.reach[i] = reach_from(rays, grid, grid.world_from_cells.xform(centre));
+                air.reach[i] = reach_from(t.rays, grid.cells, grid.cells.world_from_cells.xform(centre));
             }
         }
     });
@@ -120,6 +156,16 @@ AirPoints make_air_points(const StillScene& scene, const RayScene& rays, const P
         air.rays.insert(air.rays.end(), f.sky_rays.begin(), f.sky_rays.end());
     }
     air.stand_in = spread(air.links, air.dims);
+    return air;
+}
+
+} // namespace
+
+std::vector<AirPoints> make_air(const Transport& transport, AirUse use, const std::atomic<bool>& stop) {
+    std::vector<AirPoints> air;
+    for (size_t i = 0; i < transport.probe_count && !stop; ++i) {
+        air.push_back(make_air_points(transport, transport.patches.grids[i], use));
+    }
     return air;
 }
 

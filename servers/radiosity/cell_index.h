@@ -65,16 +65,16 @@ public:
             count_ += b.low_count + uint32_t(std::popcount(b.high));
         }
     }
+    /// Has the memory fetched that find() will read. @param cell  of the grid
+    void prefetch(const glm::ivec3& cell) const noexcept { __builtin_prefetch(&brick_of(cell)); }
     /// Number of an occupied cell, kNone for any other and outside the grid.
     [[nodiscard]] uint32_t find(const glm::ivec3& cell) const noexcept {
         if (uint32_t(cell.x) >= uint32_t(grid_dims_.x) || uint32_t(cell.y) >= uint32_t(grid_dims_.y) ||
             uint32_t(cell.z) >= uint32_t(grid_dims_.z)) {
             return kNone;
         }
-        const glm::ivec3 b = cell >> 2, c = cell & 3;
-        const Brick& brick =
-            bricks_[(size_t(b.z) * size_t(bricks_dims_.y) + size_t(b.y)) * size_t(bricks_dims_.x) +
-                    size_t(b.x)];
+        const glm::ivec3 c = cell & 3;
+        const Brick& brick = brick_of(cell);
         const uint32_t bit = uint32_t(c.x | (c.y << 2) | (c.z << 4));
         const uint32_t word = bit < 32 ? brick.low : brick.high;
         const uint32_t mask = 1u << (bit & 31);
@@ -87,6 +87,12 @@ public:
     [[nodiscard]] std::span<const Brick> bricks() const noexcept { return bricks_; }
 
 private:
+    [[nodiscard]] const Brick& brick_of(const glm::ivec3& cell) const noexcept {
+        const glm::ivec3 b = cell >> 2;
+        return bricks_[(size_t(b.z) * size_t(bricks_dims_.y) + size_t(b.y)) * size_t(bricks_dims_.x) +
+                       size_t(b.x)];
+    }
+
     glm::ivec3 grid_dims_{0}, bricks_dims_{0};
     uint32_t count_ = 0;
     std::vector<Brick> bricks_;

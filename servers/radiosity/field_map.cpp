@@ -6,7 +6,6 @@
 #include "core/threads.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -22,13 +21,6 @@ constexpr float kMostAway = 0.35f; ///< a sixth of a right angle past the border
 constexpr float kOwnFacing = 0.1f;
 constexpr float kGoesOnFacing = 0.5f; ///< cosine between surfaces that are taken for one
 constexpr float kCrack_cells = 0.2f;  ///< a space as narrow as this is not looked into
-constexpr float kMaxRadiance = 65408.0f;
-
-void write_half(const glm::vec3& color, uint16_t* out) noexcept {
-    for (int channel = 0; channel < 3; ++channel) {
-        out[channel] = glm::packHalf1x16(glm::clamp(color[channel], -kMaxRadiance, kMaxRadiance));
-    }
-}
 
 glm::vec3 facing_axis(const CellGrid& grid, int facing) noexcept {
     const glm::vec3 axis = glm::normalize(grid.world_from_cells.basis[facing / 2]);
@@ -173,13 +165,6 @@ void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) 
     }
 }
 
-/// Reach along an axis to both sides, quarters of a cell: 32 * below + above, a number that a half holds
-/// exactly.
-float packed_reach(const std::array<float, 6>& reach, int axis) noexcept {
-    const auto quarters = [](float cells) { return std::floor(std::clamp(cells * 4.0f, 0.0f, 31.0f)); };
-    return 32.0f * quarters(reach[size_t(axis) * 2]) + quarters(reach[size_t(axis) * 2 + 1]);
-}
-
 } // namespace
 
 FieldMap make_field_map(const Transport& transport) {
@@ -205,32 +190,6 @@ std::vector<uint32_t> encode_field(const FieldMap& map, const Solution& solution
             }
         }
     });
-    return out;
-}
-
-std::vector<uint16_t> encode_air(const Transport& transport, const FieldMap& map, const Solution& solution) {
-    std::vector<uint16_t> out(size_t(map.air.x) * size_t(map.air.y) * size_t(map.air.z) * 4);
-    for (size_t p = 0; p < map.probes.size(); ++p) {
-        const glm::ivec3 dims = map.probes[p].bricks;
-        const auto texel_of = [&](int n, int slab) {
-            const int x = n % dims.x, y = n / dims.x % dims.y, z = n / (dims.x * dims.y);
-            const int at_z = map.probes[p].air_z + slab * dims.z + z;
-            return out.data() +
-                   4 * ((size_t(at_z) * size_t(map.air.y) + size_t(y)) * size_t(map.air.x) + size_t(x));
-        };
-        constexpr size_t kGrain = 1024;
-        parallel_for(solution.air[p].size(), kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                const Solution::Air& air = solution.air[p][i];
-                write_half(air.mean, texel_of(int(i), 0));
-                for (int axis = 0; axis < 3; ++axis) {
-                    uint16_t* texel = texel_of(int(i), 1 + axis);
-                    write_half(air.slope[size_t(axis)], texel);
-                    texel[3] = glm::packHalf1x16(packed_reach(transport.air[p].reach[i], axis));
-                }
-            }
-        });
-    }
     return out;
 }
 

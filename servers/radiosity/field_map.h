@@ -41,10 +41,4 @@ struct FieldMap {
 /// Light that arrives at each slot, as shared-exponent RGB (9, 9, 9, 5 bits).
 [[nodiscard]] std::vector<uint32_t> encode_field(const FieldMap& map, const Solution& solution);
 
-/// Air light as RGBA half floats: for each probe four slabs (mean, slopes along x, y, z of the world). a of
-/// the last three: how far the point reaches along x, y, z of the grid, 32 * quarters of a cell below +
-/// quarters above.
-[[nodiscard]] std::vector<uint16_t> encode_air(const Transport& transport, const FieldMap& map,
-                                               const Solution& solution);
-
 } // namespace cl::radiosity

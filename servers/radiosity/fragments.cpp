@@ -56,14 +56,15 @@ void cut(const StillScene& scene, std::span<const CellGrid> grids, size_t probe_
 
 std::vector<Fragment> cut_fragments(const StillScene& scene, std::span<const CellGrid> grids,
                                     size_t probe_count) {
-    constexpr size_t kGrain = 256;
-    const size_t chunks = (scene.triangles.size() + kGrain - 1) / kGrain;
+    // Few triangles are often large ones.
+    const size_t grain = std::clamp<size_t>(scene.triangles.size() / 64, 1, 256);
+    const size_t chunks = (scene.triangles.size() + grain - 1) / grain;
     std::vector<std::vector<Fragment>> parts(chunks * grids.size());
     parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const size_t first = i % chunks * kGrain;
-            cut(scene, grids, probe_count, i / chunks, first,
-                std::min(first + kGrain, scene.triangles.size()), parts[i]);
+            const size_t first = i % chunks * grain;
+            cut(scene, grids, probe_count, i / chunks, first, std::min(first + grain, scene.triangles.size()),
+                parts[i]);
         }
     });
     std::vector<Fragment> all;

@@ -86,32 +86,4 @@ std::vector<Rgb4> at_patches(const Transport& t, std::span<const Rgb4> at_record
     return out;
 }
 
-std::vector<Solution::Air> gather_air(const AirPoints& air, std::span<const Rgb4> sky,
-                                      std::span<const Rgb4> leaving) {
-    std::vector<Solution::Air> own(air.links.points.size());
-    for_all(own.size(), [&](size_t i) {
-        const Links::Point& point = air.links.points[i];
-        Rgb4 mean{}, x{}, y{}, z{};
-        const auto add = [&](std::span<const uint32_t> targets, uint32_t first, std::span<const Rgb4> light) {
-            for (size_t k = 0; k < targets.size(); ++k) {
-                const glm::vec3& d = air.directions[air.rays[first + k]];
-                const Rgb4 radiance = light[targets[k]];
-                mean += radiance;
-                x += radiance * gi::splat(d.x);
-                y += radiance * gi::splat(d.y);
-                z += radiance * gi::splat(d.z);
-            }
-        };
-        add(air.links.patches_of(point), point.first, leaving);
-        if (!sky.empty()) {
-            add(air.links.skies_of(point), point.first + point.patch_count, sky);
-        }
-        const Rgb4 scale = gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
-        own[i] = {rgb(mean * scale), {rgb(x * scale), rgb(y * scale), rgb(z * scale)}};
-    });
-    std::vector<Solution::Air> shown(own.size());
-    for_all(own.size(), [&](size_t i) { shown[i] = own[air.stand_in[i]]; });
-    return shown;
-}
-
 } // namespace cl::radiosity

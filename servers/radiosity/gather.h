@@ -44,10 +44,4 @@ void step_bounce(const Transport& transport, std::span<const Rgb4> first, std::s
 /// Radiance of each sky bin.
 [[nodiscard]] std::vector<Rgb4> sky_lanes(const Lighting& lighting);
 
-/// Radiance in the air.
-/// @param sky  of each bin; empty: the points see none
-/// @param leaving  one a patch
-[[nodiscard]] std::vector<Solution::Air> gather_air(const AirPoints& air, std::span<const Rgb4> sky,
-                                                    std::span<const Rgb4> leaving);
-
 } // namespace cl::radiosity

@@ -50,8 +50,11 @@ struct RayFan {
 };
 
 /// Traces rays and adds where they end.
-void add_rays(const StillScene& scene, const RayScene& rays, const Patches& patches,
-              std::span<const Ray> asked, RayFan& fan);
+void add_rays(const RayScene& rays, const Patches& patches, std::span<const Ray> asked, RayFan& fan);
+
+/// Sorts numbers of patches, of which there are `patch_count`: a relight reads them faster so, and parts of
+/// the list are parts of the scene. Radix sort of two digits: a third of the time of std::sort.
+void sort_patches(std::span<uint32_t> patches, size_t patch_count);
 
 /// Appends a fan as the next point.
 void append_point(Links& links, const RayFan& fan);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace cl::radiosity {
 namespace {
@@ -21,31 +22,54 @@ float median(std::span<float> values) noexcept {
     return *middle;
 }
 
-/// What a few rays from a point of a surface meet.
+constexpr size_t kMany = 24, kHalf = kMany / 2;
+
+/// What rays from a point of a surface met so far.
 struct Outlook {
-    int backs = 0;   ///< backs of surfaces
-    int unclear = 0; ///< a front and a back in one place: two solids that touch, or a wall of no thickness
-    float openness_m = 1e30f; ///< median of the distances
+    size_t backs = 0;   ///< backs of surfaces
+    size_t unclear = 0; ///< a front and a back in one place: two solids that touch, or a wall of no thickness
+    std::vector<float> distances_m;
+
+    /// True if most of `kMany` rays will have met backs, whatever the rest of them meet. Unclear ones do not
+    /// count.
+    [[nodiscard]] bool is_inside() const noexcept { return 2 * backs + unclear >= kMany && backs > 0; }
 };
 
-template <size_t kCount>
-Outlook look(const RayScene& rays, const std::array<Ray, kCount>& asked, float cell_m) noexcept {
-    std::array<Hit, kCount> fronts, backs;
-    rays.trace_side(RayScene::Side::Front, asked, fronts);
-    rays.trace_side(RayScene::Side::Back, asked, backs);
-    Outlook outlook;
-    std::array<float, kCount> distances_m;
-    for (size_t i = 0; i < kCount; ++i) {
-        const float front_m = fronts[i].triangle == kMiss ? 1e30f : fronts[i].t;
-        const float back_m = backs[i].triangle == kMiss ? 1e30f : backs[i].t;
-        const float nearest_m = std::min(front_m, back_m);
-        const bool one_place = nearest_m < 1e30f && std::abs(front_m - back_m) < kNudge_cells * cell_m;
-        outlook.unclear += one_place ? 1 : 0;
-        outlook.backs += !one_place && back_m < front_m ? 1 : 0;
-        distances_m[i] = nearest_m;
+/// Which of some hits have a surface that shows its other side in the same place.
+std::array<bool, kHalf> are_doubled(const RayScene& rays, std::span<const Ray> asked,
+                                    std::span<const Hit> hits, float cell_m) noexcept {
+    std::array<bool, kHalf> doubled{};
+    for (const RayScene::Side other : {RayScene::Side::Front, RayScene::Side::Back}) {
+        std::array<Ray, kHalf> shorter;
+        std::array<size_t, kHalf> which{};
+        size_t count = 0;
+        for (size_t i = 0; i < hits.size(); ++i) {
+            if (hits[i].triangle != kMiss && hits[i].is_front != (other == RayScene::Side::Front)) {
+                which[count] = i;
+                shorter[count] = asked[i];
+                shorter[count++].max_t = hits[i].t + kNudge_cells * cell_m;
+            }
+        }
+        std::array<Hit, kHalf> met;
+        rays.trace_side(other, std::span(shorter).first(count), std::span(met).first(count));
+        for (size_t i = 0; i < count; ++i) {
+            doubled[which[i]] = met[i].triangle != kMiss;
+        }
     }
-    outlook.openness_m = median(distances_m);
-    return outlook;
+    return doubled;
+}
+
+void look(const RayScene& rays, std::span<const Ray> asked, float cell_m, Outlook& outlook) noexcept {
+    std::array<Hit, kHalf> hits;
+    rays.trace(asked, std::span(hits).first(asked.size()));
+    const std::array<bool, kHalf> doubled =
+        are_doubled(rays, asked, std::span(hits).first(asked.size()), cell_m);
+    for (size_t i = 0; i < asked.size(); ++i) {
+        const bool missed = hits[i].triangle == kMiss;
+        outlook.unclear += doubled[i] ? 1 : 0;
+        outlook.backs += !missed && !hits[i].is_front && !doubled[i] ? 1 : 0;
+        outlook.distances_m.push_back(missed ? 1e30f : hits[i].t);
+    }
 }
 
 /// The median of the distances to what some rays meet, if all of it shows its front.
@@ -82,14 +106,33 @@ float openness(const RayScene& rays, const glm::vec3& point, const glm::vec3& no
         return *open_m;
     }
     // A few rays settle it where none meets a back; more are asked otherwise, and those that meet faces of
-    // two solids that touch do not count.
-    std::array<Ray, 24> many;
-    for (uint32_t i = 0; i < many.size(); ++i) {
-        many[i] = {origin, frame.direction(r2_point(i, glm::vec2(0.5f)))};
+    // two solids that touch do not count. Half of them do where all meet backs.
+    Outlook outlook;
+    for (size_t begin = 0; begin < kMany; begin += kHalf) {
+        std::array<Ray, kHalf> some;
+        for (size_t i = 0; i < kHalf; ++i) {
+            some[i] = {origin, frame.direction(r2_point(uint32_t(begin + i), glm::vec2(0.5f)))};
+        }
+        look(rays, some, cell_m, outlook);
+        if (outlook.is_inside()) {
+            return outlook.backs + outlook.unclear == begin + kHalf ? kBuried : kInside;
+        }
     }
-    const Outlook second = look(rays, many, cell_m);
-    const int clear = int(many.size()) - second.unclear;
-    return clear > 0 && second.backs * 2 >= clear ? -1.0f : second.openness_m;
+    return median(outlook.distances_m);
+}
+
+std::vector<float> openness_of_all(const RayScene& rays, std::span<const glm::vec3> points,
+                                   const glm::vec3& normal, float cell_m, std::optional<glm::vec3> buried) {
+    std::vector<float> open_m;
+    for (const glm::vec3& p : points) {
+        const bool sees_buried =
+            buried && !rays.is_blocked(lifted(*buried, normal, cell_m), lifted(p, normal, cell_m));
+        open_m.push_back(sees_buried ? kBuried : openness(rays, p, normal, cell_m));
+        if (open_m.back() == kBuried) {
+            buried = p;
+        }
+    }
+    return open_m;
 }
 
 std::vector<size_t> spaces(const RayScene& rays, std::span<const glm::vec3> points, const glm::vec3& normal,

@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 namespace cl::radiosity {
@@ -40,25 +42,35 @@ struct Found {
     bool alone = false;                  ///< in its cell
 };
 
-Found search(const Patches& patches, const glm::vec3& point, const glm::vec3& facing) noexcept {
+/// Where to look for a point's patch.
+struct Place {
+    const Patches::Grid* grid = nullptr; ///< the first that the point lies in
+    glm::ivec3 cell{0};
+};
+
+Place place_of(const Patches& patches, const glm::vec3& point, const glm::vec3& facing) noexcept {
     for (const Patches::Grid& g : patches.grids) {
         const glm::vec3 at =
             g.cells.cells_from_world.xform(point - 2.0f * kNudge_cells * g.cells.cell_m * facing);
-        if (!g.cells.contains(at)) {
-            continue;
+        if (g.cells.contains(at)) {
+            return {&g, glm::ivec3(at)}; // no less than 0
         }
-        const uint32_t cell = g.index.find(glm::ivec3(glm::floor(at)));
-        if (cell == CellIndex::kNone) {
-            return {kNoPatch, &g, false};
-        }
-        const Patches::Grid::Sought& sought = g.sought[cell];
-        if (sought.normal == 0) {
-            return {best_of_cell(patches, g, cell, point, facing), &g, false};
-        }
-        const glm::vec3 normal(glm::unpackSnorm3x10_1x2(sought.normal));
-        return {glm::dot(normal, facing) > kLeastFacing ? sought.first : kNoPatch, &g, true};
     }
     return {};
+}
+
+/// @param cell  its number
+Found search_cell(const Patches& patches, const Patches::Grid& g, uint32_t cell, const glm::vec3& point,
+                  const glm::vec3& facing) noexcept {
+    if (cell == CellIndex::kNone) {
+        return {kNoPatch, &g, false};
+    }
+    const Patches::Grid::Sought& sought = g.sought[cell];
+    if (sought.normal == 0) {
+        return {best_of_cell(patches, g, cell, point, facing), &g, false};
+    }
+    const glm::vec3 normal(glm::unpackSnorm3x10_1x2(sought.normal));
+    return {glm::dot(normal, facing) > kLeastFacing ? sought.first : kNoPatch, &g, true};
 }
 
 bool sees(const RayScene& rays, const Patches& patches, const glm::vec3& point, const glm::vec3& facing,
@@ -99,26 +111,61 @@ size_t nearest_around(const Patches& patches, const Patches::Grid& grid, const g
     return count;
 }
 
-} // namespace
-
-uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const noexcept {
-    return search(*this, point, facing).patch;
-}
-
-uint32_t Patches::find_seen(const RayScene& rays, const glm::vec3& point,
-                            const glm::vec3& facing) const noexcept {
-    const Found own = search(*this, point, facing);
-    if (own.patch == kNoPatch || own.alone || sees(rays, *this, point, facing, own.patch)) {
+/// The patch that was found, or one near it, if the point sees it.
+uint32_t seen_patch(const RayScene& rays, const Patches& patches, const Found& own, const glm::vec3& point,
+                    const glm::vec3& facing) noexcept {
+    if (own.patch == kNoPatch || own.alone || sees(rays, patches, point, facing, own.patch)) {
         return own.patch;
     }
     std::array<std::pair<float, uint32_t>, 6> around;
-    const size_t count = nearest_around(*this, *own.grid, point, facing, around);
+    const size_t count = nearest_around(patches, *own.grid, point, facing, around);
     for (size_t i = 0; i < count; ++i) {
-        if (around[i].second != own.patch && sees(rays, *this, point, facing, around[i].second)) {
+        if (around[i].second != own.patch && sees(rays, patches, point, facing, around[i].second)) {
             return around[i].second;
         }
     }
     return kNoPatch;
+}
+
+} // namespace
+
+uint32_t Patches::find(const glm::vec3& point, const glm::vec3& facing) const noexcept {
+    const Place place = place_of(*this, point, facing);
+    return place.grid
+               ? search_cell(*this, *place.grid, place.grid->index.find(place.cell), point, facing).patch
+               : kNoPatch;
+}
+
+void Patches::find_seen(const RayScene& rays, std::span<const SurfacePoint> points,
+                        std::span<uint32_t> found) const noexcept {
+    // Points jump about: in three rounds, each of which has the memory fetched that the next one reads.
+    constexpr size_t kRound = 32;
+    std::array<Place, kRound> places;
+    std::array<uint32_t, kRound> cells;
+    for (size_t begin = 0; begin < points.size(); begin += kRound) {
+        const std::span<const SurfacePoint> some =
+            points.subspan(begin, std::min(kRound, points.size() - begin));
+        for (size_t i = 0; i < some.size(); ++i) {
+            places[i] = place_of(*this, some[i].position, some[i].facing);
+            if (places[i].grid) {
+                places[i].grid->index.prefetch(places[i].cell);
+            }
+        }
+        for (size_t i = 0; i < some.size(); ++i) {
+            cells[i] = places[i].grid ? places[i].grid->index.find(places[i].cell) : CellIndex::kNone;
+            if (cells[i] != CellIndex::kNone) {
+                __builtin_prefetch(&places[i].grid->sought[cells[i]]);
+            }
+        }
+        for (size_t i = 0; i < some.size(); ++i) {
+            const glm::vec3 &point = some[i].position, &facing = some[i].facing;
+            found[begin + i] =
+                cells[i] == CellIndex::kNone
+                    ? kNoPatch
+                    : seen_patch(rays, *this, search_cell(*this, *places[i].grid, cells[i], point, facing),
+                                 point, facing);
+        }
+    }
 }
 
 } // namespace cl::radiosity

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -78,7 +79,8 @@ public:
                 draft.position = middle;
                 out.push_back(draft);
             } else {
-                add_spaces(c, draft, grid, out);
+                const bool is_buried = draft.openness_m == kBuried;
+                add_spaces(c, draft, grid, is_buried ? std::optional(middle) : std::nullopt, out);
             }
         }
     }
@@ -146,17 +148,17 @@ private:
         return points;
     }
 
-    /// A patch for each space that a cluster borders on.
+    /// A patch for each space that a cluster borders on. @param buried  a point of it that is, if known
     void add_spaces(const Cluster& c, const Draft& draft, const CellGrid& grid,
-                    std::vector<Draft>& out) const {
+                    const std::optional<glm::vec3>& buried, std::vector<Draft>& out) const {
         const std::vector<glm::vec3> asked = candidates(c, grid);
+        const std::vector<float> all_m = openness_of_all(rays_, asked, draft.normal, grid.cell_m, buried);
         std::vector<glm::vec3> points;
         std::vector<float> open_m;
-        for (const glm::vec3& p : asked) {
-            const float here_m = openness(rays_, p, draft.normal, grid.cell_m);
-            if (here_m >= 0.0f) {
-                points.push_back(p);
-                open_m.push_back(here_m);
+        for (size_t i = 0; i < asked.size(); ++i) {
+            if (all_m[i] >= 0.0f) {
+                points.push_back(asked[i]);
+                open_m.push_back(all_m[i]);
             }
         }
         const std::vector<size_t> space = spaces(rays_, points, draft.normal, grid.cell_m);

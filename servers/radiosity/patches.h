@@ -44,10 +44,14 @@ struct Patches {
     /// The patch that a point of a surface belongs to; kNoPatch if there is none.
     /// @param normal  the surface's, on the side that is meant
     [[nodiscard]] uint32_t find(const glm::vec3& point, const glm::vec3& normal) const noexcept;
-    /// The same, if other surfaces share the cell only a patch in sight of the point: one that stands in a
-    /// neighbouring cell where the cell's own are all on the other side of a wall.
-    [[nodiscard]] uint32_t find_seen(const RayScene& rays, const glm::vec3& point,
-                                     const glm::vec3& normal) const noexcept;
+    struct SurfacePoint {
+        glm::vec3 position, facing; ///< [m], and unit length
+    };
+    /// The same of many points, if other surfaces share the cell only a patch in sight of the point: one that
+    /// stands in a neighbouring cell where the cell's own are all on the other side of a wall.
+    /// found.size() == points.size()
+    void find_seen(const RayScene& rays, std::span<const SurfacePoint> points,
+                   std::span<uint32_t> found) const noexcept;
 };
 
 /// Cuts a scene into patches. A surface inside a solid (rays from it meet back sides) gets none.

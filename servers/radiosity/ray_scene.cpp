@@ -159,6 +159,10 @@ Expected<RayScene> RayScene::create(const StillScene& scene) {
     return RayScene(std::move(impl));
 }
 
+const glm::vec3& RayScene::normal(uint32_t triangle) const noexcept {
+    return impl_->normals[triangle];
+}
+
 void RayScene::trace(std::span<const Ray> rays, std::span<Hit> hits) const noexcept {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

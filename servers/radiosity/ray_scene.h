@@ -56,6 +56,9 @@ public:
     /// blocked.size() == rays.size()
     void find_blocked(std::span<const Ray> rays, std::span<uint8_t> blocked) const noexcept;
 
+    /// Unit length, out of a triangle's front; 0 if it is degenerate.
+    [[nodiscard]] const glm::vec3& normal(uint32_t triangle) const noexcept;
+
     struct Impl;
 
 private:

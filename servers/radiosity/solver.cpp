@@ -141,11 +141,6 @@ Solution solve(const Transport& t, const Lighting& lighting, const std::atomic<b
     const std::vector<Rgb4> seen = at_patches(t, arriving);
     std::vector<Rgb4> leaving = sent_on(t, direct, seen);
     for_all(leaving.size(), [&](size_t p) { leaving[p] += rgb4(t.patches.emission[p]); });
-    const std::vector<Rgb4> sky = sky_lanes(lighting);
-    for (size_t i = 0; i < t.air.size() && !stop; ++i) {
-        const bool is_interior = i < lighting.interior.size() && lighting.interior[i];
-        s.air.push_back(gather_air(t.air[i], is_interior ? std::span<const Rgb4>{} : sky, leaving));
-    }
     s.arriving = in_three(seen);
     s.leaving = in_three(leaving);
     return s;

@@ -44,14 +44,6 @@ struct Lighting {
 struct Solution {
     std::vector<glm::vec3> arriving; ///< one a patch, without light straight from sources
     std::vector<glm::vec3> leaving;  ///< one a patch: emission and all light it sends on
-
-    /// Radiance in the air in two bands of spherical harmonics, per probe and point: mean, and mean times
-    /// direction.
-    struct Air {
-        glm::vec3 mean;
-        std::array<glm::vec3, 3> slope; ///< along x, y, z of the world
-    };
-    std::vector<std::vector<Air>> air;
     int bounces = 0;
 };
 

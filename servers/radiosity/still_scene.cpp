@@ -6,6 +6,14 @@
 
 namespace cl::radiosity {
 
+AABB StillScene::bounds() const noexcept {
+    AABB box{positions.empty() ? glm::vec3(0.0f) : positions[0], glm::vec3(0.0f)};
+    for (const glm::vec3& p : positions) {
+        box = box.expanded_to(p);
+    }
+    return box;
+}
+
 glm::vec3 StillScene::normal(uint32_t triangle) const noexcept {
     const glm::uvec3 t = triangles[triangle];
     const glm::vec3 n = glm::cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x]);

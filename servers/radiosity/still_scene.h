@@ -2,6 +2,8 @@
 
 #include "servers/radiosity/color_map.h"
 
+#include "core/math/aabb.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -31,6 +33,8 @@ struct StillScene {
     std::vector<uint32_t> surface_of;  ///< one a triangle
     std::vector<Surface> surfaces;
 
+    /// Of all positions.
+    [[nodiscard]] AABB bounds() const noexcept;
     /// Unit length, out of the front; 0 for a degenerate triangle.
     [[nodiscard]] glm::vec3 normal(uint32_t triangle) const noexcept;
     /// UVs at barycentric weights of vertices 1 and 2, scaled and offset as the surface says.

@@ -31,14 +31,6 @@ AABB with_margin(const AABB& box, int cells) {
     return box.grown(longest_m * float(kProbeMargin) / float(std::max(cells - 2 * kProbeMargin, 1)));
 }
 
-AABB bounds_of(const StillScene& scene) {
-    AABB box{scene.positions.empty() ? glm::vec3(0.0f) : scene.positions[0], glm::vec3(0.0f)};
-    for (const glm::vec3& p : scene.positions) {
-        box = box.merged({p, glm::vec3(0.0f)});
-    }
-    return box;
-}
-
 bool covers(const AABB& outer, const AABB& inner) noexcept {
     return glm::all(glm::lessThanEqual(outer.position, inner.position)) &&
            glm::all(glm::greaterThanEqual(outer.position + outer.size, inner.position + inner.size));
@@ -64,7 +56,7 @@ std::vector<CellGrid> make_grids(const StillScene& scene, std::span<const ProbeB
         grids.push_back(grid_of_box(p.world_from_probe, with_margin(p.box, cells), cells));
         all = all.merged(transformed(p.world_from_probe, p.box));
     }
-    const AABB bounds = bounds_of(scene);
+    const AABB bounds = scene.bounds();
     for (int i = 1; i <= kMaxOuterGrids && !covers(all, bounds); ++i) {
         all = {all.position - 0.5f * all.size, 2.0f * all.size};
         grids.push_back(grid_of_box({}, all, kOuterCells));
@@ -140,14 +132,9 @@ void add_exchanges(Transport& t) {
 } // namespace
 
 size_t Transport::bytes() const noexcept {
-    size_t air_bytes = 0;
-    for (const AirPoints& a : air) {
-        air_bytes += a.links.targets.size() * (sizeof(uint32_t) + sizeof(uint8_t)) +
-                     a.links.points.size() * sizeof(Links::Point);
-    }
     const size_t per_patch = 5 * sizeof(glm::vec3) + 2 * sizeof(uint64_t);
     return patches.size() * per_patch + records.links.targets.size() * sizeof(uint32_t) +
-           records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange) + air_bytes;
+           records.shares.size() * sizeof(Records::Share) + exchanges.size() * sizeof(Exchange);
 }
 
 Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<const StillScene>& scene,
@@ -158,8 +145,7 @@ Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<
         return rays.error();
     }
     const Error cancelled{ErrorCode::Cancelled, "light transport: cancelled"};
-    auto t =
-        std::make_shared<Transport>(Transport{scene, std::move(*rays), {}, {}, probes.size(), {}, {}, {}});
+    auto t = std::make_shared<Transport>(Transport{scene, std::move(*rays), {}, {}, probes.size(), {}, {}});
     t->patches = make_patches(*scene, t->rays, make_grids(*scene, probes), probes.size());
     if (stop) {
         return cancelled;
@@ -167,9 +153,6 @@ Expected<std::shared_ptr<const Transport>> make_transport(const std::shared_ptr<
     t->records = make_records(*scene, t->rays, t->patches);
     if (stop) {
         return cancelled;
-    }
-    for (size_t i = 0; i < probes.size() && !stop; ++i) {
-        t->air.push_back(make_air_points(*scene, t->rays, t->patches, t->patches.grids[i].cells));
     }
     add_exchanges(*t);
     if (stop) {

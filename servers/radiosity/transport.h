@@ -1,6 +1,5 @@
 #pragma once
 
-#include "servers/radiosity/air_points.h"
 #include "servers/radiosity/patches.h"
 #include "servers/radiosity/ray_scene.h"
 #include "servers/radiosity/records.h"
@@ -22,8 +21,7 @@ struct Transport {
     RayScene rays;
     Patches patches;
     Records records;
-    size_t probe_count = 0;     ///< the first grids are the probes', the others surround them
-    std::vector<AirPoints> air; ///< one a probe
+    size_t probe_count = 0; ///< the first grids are the probes', the others surround them
 
     /// Light that a record gets from another one's surroundings: the sums of its links' albedos, which stand
     /// for every bounce after the first. A record has those in [first, next record's first).

@@ -3,86 +3,12 @@
 #include "servers/visual/field_lighting.h"
 
 #include "core/io/log.h"
+#include "core/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace cl {
-namespace {
-
-class Timer {
-public:
-    [[nodiscard]] double elapsed_ms() const {
-        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin_;
-        return took.count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-} // namespace
-
-struct FieldDriver::Job {
-    // Given.
-    Geometry geometry;
-    radiosity::Lighting lighting;
-    std::vector<StillItem> items; ///< of a new transport; else empty
-    std::shared_ptr<const radiosity::Transport> transport;
-    std::shared_ptr<const radiosity::FieldMap> map;
-    std::shared_ptr<radiosity::DirectCache> direct = std::make_shared<radiosity::DirectCache>();
-    bool is_new = false; ///< transport and map are to be made
-    bool glossy = false; ///< volumes are to be made
-    // Made.
-    std::vector<uint32_t> light;
-    std::vector<uint16_t> air;
-    std::vector<radiosity::RadianceVolume> volumes;
-    std::string error;
-    int bounces = 0;
-    double bake_ms = 0.0, solve_ms = 0.0;
-    std::atomic<bool> done{false};
-    std::atomic<bool> stop{false}; ///< not wanted any more
-
-    void run() {
-        const Timer bake;
-        if (is_new && !make_transport()) {
-            done = true;
-            return;
-        }
-        bake_ms = is_new ? bake.elapsed_ms() : 0.0;
-        const Timer solving;
-        const radiosity::Solution solution = radiosity::solve(*transport, lighting, stop, direct.get());
-        if (!stop) {
-            bounces = solution.bounces;
-            light = radiosity::encode_field(*map, solution);
-            air = radiosity::encode_air(*transport, *map, solution);
-            for (size_t i = 0; glossy && i < transport->probe_count; ++i) {
-                volumes.push_back(radiosity::make_radiance_volume(*transport, i, solution));
-            }
-        }
-        solve_ms = solving.elapsed_ms();
-        done = true;
-    }
-
-    bool make_transport() {
-        auto scene = std::make_shared<const radiosity::StillScene>(make_still_scene(items));
-        items.clear();
-        std::vector<radiosity::ProbeBox> boxes;
-        for (const ProbeKey& p : geometry.probes) {
-            boxes.push_back({p.world_from_probe, p.box, geometry.quality == Quality::High ? 128 : 64});
-        }
-        auto made = radiosity::make_transport(scene, boxes, stop);
-        if (!made) {
-            error = made.error().message;
-            return false;
-        }
-        transport = *made;
-        map = std::make_shared<const radiosity::FieldMap>(radiosity::make_field_map(*transport));
-        return true;
-    }
-};
-
 FieldDriver::FieldDriver(Storage& storage, InstanceStorage& instances, Rasterizer& rasterizer,
                          WorkerQueue& worker)
     : storage_(storage), instances_(instances), rasterizer_(rasterizer), worker_(worker) {}
@@ -104,11 +30,24 @@ void FieldDriver::drop(Field& field) {
         static_cast<void>(rasterizer_.free(volume));
     }
     field.volumes.clear();
-    for (const ItemKey& item : field.geometry.items) {
+    for (const FieldGeometry::Item& item : field.geometry.items) {
         if (Instance* instance = instances_.get(item.instance)) {
             instance->still_version = 0;
         }
     }
+}
+
+void FieldDriver::mark_still(const Field& field) {
+    for (const FieldGeometry::Item& item : field.geometry.items) {
+        if (Instance* instance = instances_.get(item.instance)) {
+            instance->still_version = item.look;
+        }
+    }
+}
+
+bool FieldDriver::is_starting() const {
+    return std::any_of(fields_.begin(), fields_.end(),
+                       [](const auto& known) { return known.second.job && !known.second.upload; });
 }
 
 std::vector<RID> FieldDriver::scenarios_with_probes() const {
@@ -133,8 +72,8 @@ bool FieldDriver::rests(RID rid, uint64_t look, Rest rest) {
            step_ >= known->second.changed_at + kRestSteps;
 }
 
-FieldDriver::Geometry FieldDriver::wanted_geometry(RID scenario, Rest rest) {
-    Geometry geometry;
+FieldGeometry FieldDriver::wanted_geometry(RID scenario, Rest rest) {
+    FieldGeometry geometry;
     geometry.quality = quality_;
     for (RID rid : instances_.probes()) {
         const Instance& instance = *instances_.get(rid);
@@ -157,9 +96,9 @@ FieldDriver::Geometry FieldDriver::wanted_geometry(RID scenario, Rest rest) {
     return geometry;
 }
 
-radiosity::Lighting FieldDriver::wanted_lighting(RID scenario, const Geometry& geometry) const {
+radiosity::Lighting FieldDriver::wanted_lighting(RID scenario, const FieldGeometry& geometry) const {
     radiosity::Lighting lighting = lighting_of(storage_, instances_, scenario);
-    for (const ProbeKey& key : geometry.probes) {
+    for (const FieldGeometry::Probe& key : geometry.probes) {
         const GIProbe* probe = storage_.gi_probes.get(instances_.get(key.instance)->base);
         lighting.interior.push_back(probe && probe->interior);
     }
@@ -185,30 +124,40 @@ Status FieldDriver::step(Rest rest) {
         if (field.job) {
             continue; // a change that comes meanwhile is found by comparison when it is done
         }
-        Geometry geometry = wanted_geometry(scenario, rest);
+        FieldGeometry geometry = wanted_geometry(scenario, rest);
         radiosity::Lighting lighting = wanted_lighting(scenario, geometry);
-        const bool glossy = has_gloss(scenario);
-        if (!field.transport || geometry != field.geometry || lighting != field.lighting ||
-            glossy != field.glossy) {
-            start(field, std::move(geometry), std::move(lighting), glossy);
+        const FieldReaders readers = wanted_readers(scenario, geometry);
+        if (!field.parts.transport || geometry != field.geometry || lighting != field.lighting ||
+            !field.readers.include(readers)) {
+            start(field, std::move(geometry), std::move(lighting), readers);
         }
     }
     return errors.status();
 }
 
-void FieldDriver::start(Field& field, Geometry geometry, radiosity::Lighting lighting, bool glossy) {
-    auto job = std::make_shared<Job>();
-    job->glossy = glossy;
-    job->is_new = !field.transport || geometry != field.geometry;
+void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lighting lighting,
+                        const FieldReaders& readers) {
+    auto job = std::make_shared<FieldJob>();
+    job->readers = readers;
+    job->is_new = !field.parts.transport || geometry != field.geometry;
     if (job->is_new) {
-        for (const ItemKey& item : geometry.items) {
+        for (const FieldGeometry::Item& item : geometry.items) {
             job->items.push_back(describe_still(storage_, item.instance, *instances_.get(item.instance)));
         }
         log_debug("GI field: light transport of " + std::to_string(job->items.size()) + " still instances");
     } else {
-        job->transport = field.transport;
-        job->map = field.map;
-        job->direct = field.direct;
+        job->parts = field.parts;
+        if (field.readers.air < readers.air) {
+            job->parts.air = nullptr; // what is shown meanwhile is coarse, but nobody waits
+        } else {
+            job->readers.air = field.readers.air; // kept: things that come and go cost no more than that
+        }
+    }
+    if (!field.upload) {
+        // No light is there to be read from surfaces or the air; but which of the two it will be decides
+        // about shaders, which may be compiled meanwhile.
+        field.geometry = geometry;
+        mark_still(field);
     }
     job->geometry = std::move(geometry);
     job->lighting = std::move(lighting);
@@ -217,8 +166,8 @@ void FieldDriver::start(Field& field, Geometry geometry, radiosity::Lighting lig
 }
 
 Status FieldDriver::take_in(Field& field) {
-    const std::shared_ptr<Job> job = std::exchange(field.job, nullptr);
-    const Timer uploading;
+    const std::shared_ptr<FieldJob> job = std::exchange(field.job, nullptr);
+    const Stopwatch uploading;
     FirstError errors;
     if (!job->error.empty()) {
         errors.note(Error{ErrorCode::Unsupported, job->error, {}});
@@ -226,41 +175,36 @@ Status FieldDriver::take_in(Field& field) {
     if (job->is_new) {
         drop(field);
         field.upload = {};
-        field.transport = job->transport;
-        field.map = job->map;
-        field.direct = job->direct;
         field.geometry = job->geometry;
         bake_ms_ = job->bake_ms;
     }
+    field.parts = job->parts;
     field.lighting = job->lighting;
-    field.glossy = job->glossy;
-    if (!field.map) {
+    field.readers = job->readers;
+    if (!field.parts.map) {
         return errors.status();
     }
     if (job->is_new) {
+        const radiosity::FieldMap& map = *field.parts.map;
         const Expected<RID> made = rasterizer_.gi_field_create(
-            {.brick_words = field.map->brick_words, .joints = field.map->joints, .air = field.map->air});
+            {.brick_words = map.brick_words, .joints = map.joints, .air = map.air});
         if (!made) {
             return made.error();
         }
         field.upload = *made;
-        for (const ItemKey& item : field.geometry.items) {
-            if (Instance* instance = instances_.get(item.instance)) {
-                instance->still_version = item.look;
-            }
-        }
+        mark_still(field);
     }
     errors.note(rasterizer_.gi_field_upload(field.upload, job->light, job->air));
     errors.note(upload_volumes(field, *job));
     upload_ms_ = uploading.elapsed_ms();
     relight_ms_ = job->solve_ms + upload_ms_;
-    log_debug("GI field: " + std::to_string(field.transport->patches.size()) + " patches, " +
-              std::to_string(field.transport->records.patch.size()) + " records, " +
+    log_debug("GI field: " + std::to_string(field.parts.transport->patches.size()) + " patches, " +
+              std::to_string(field.parts.transport->records.patch.size()) + " records, " +
               std::to_string(job->bounces) + " bounces, " + std::to_string(relight_ms_) + " ms");
     return errors.status();
 }
 
-Status FieldDriver::upload_volumes(Field& field, const Job& job) {
+Status FieldDriver::upload_volumes(Field& field, const FieldJob& job) {
     field.ranges.clear();
     for (size_t i = 0; i < job.volumes.size(); ++i) {
         const std::vector<radiosity::RadianceVolume::Level>& levels = job.volumes[i].levels;
@@ -284,16 +228,22 @@ Status FieldDriver::upload_volumes(Field& field, const Job& job) {
     return {};
 }
 
-/// True if anything that may be drawn reflects more than a haze: else nobody looks at the volumes.
-bool FieldDriver::has_gloss(RID scenario) {
-    bool found = false;
-    instances_.for_each([&](RID, const Instance& instance) {
-        if (!found && instance.kind == InstanceKind::Mesh && instance.scenario == scenario &&
-            instance.visible) {
-            found = is_glossy(storage_, instance);
+/// What anything that may be drawn reads: nothing is made that nobody looks at.
+FieldReaders FieldDriver::wanted_readers(RID scenario, const FieldGeometry& geometry) {
+    FieldReaders readers;
+    auto still = geometry.items.begin(); // in the order of the instances
+    instances_.for_each([&](RID rid, const Instance& instance) {
+        if (instance.kind != InstanceKind::Mesh || instance.scenario != scenario || !instance.visible) {
+            return;
+        }
+        const bool is_still = still != geometry.items.end() && still->instance == rid;
+        still += is_still ? 1 : 0;
+        readers.glossy = readers.glossy || is_glossy(storage_, instance);
+        if (readers.air == radiosity::AirUse::Gaps && reads_air(storage_, instance, is_still)) {
+            readers.air = radiosity::AirUse::Things;
         }
     });
-    return found;
+    return readers;
 }
 
 bool FieldDriver::is_settled() {
@@ -303,8 +253,9 @@ bool FieldDriver::is_settled() {
         if (found == fields_.end() || found->second.job) {
             return false;
         }
-        const Geometry geometry = wanted_geometry(scenario, Rest::AtOnce);
-        return has_gloss(scenario) == found->second.glossy && geometry == found->second.geometry &&
+        const FieldGeometry geometry = wanted_geometry(scenario, Rest::AtOnce);
+        return geometry == found->second.geometry &&
+               found->second.readers.include(wanted_readers(scenario, geometry)) &&
                wanted_lighting(scenario, geometry) == found->second.lighting;
     });
 }
@@ -318,13 +269,13 @@ void FieldDriver::describe(RID rid, const Instance& instance, GIProbeShading& sh
     const Field& field = found->second;
     for (size_t i = 0; i < field.geometry.probes.size(); ++i) {
         if (field.geometry.probes[i].instance == rid) {
-            const radiosity::CellGrid& cells = field.transport->patches.grids[i].cells;
+            const radiosity::CellGrid& cells = field.parts.transport->patches.grids[i].cells;
             shading.field = field.upload;
             shading.field_cells_from_world = cells.cells_from_world;
             shading.field_cells = glm::vec3(cells.dims);
-            shading.field_bricks = field.map->probes[i].bricks;
-            shading.field_first_brick = int(field.map->probes[i].first_brick);
-            shading.field_air_z = field.map->probes[i].air_z;
+            shading.field_bricks = field.parts.map->probes[i].bricks;
+            shading.field_first_brick = int(field.parts.map->probes[i].first_brick);
+            shading.field_air_z = field.parts.map->probes[i].air_z;
             if (i < field.ranges.size()) {
                 shading.volume = field.volumes[i];
                 shading.size = radiosity::radiance_volume_size(cells);

@@ -1,17 +1,12 @@
 #pragma once
 
-#include "servers/radiosity/field_map.h"
-#include "servers/radiosity/radiance_volume.h"
-#include "servers/radiosity/solver.h"
-#include "servers/radiosity/transport.h"
+#include "servers/visual/field_job.h"
 #include "servers/visual/first_error.h"
 #include "servers/visual/instance_storage.h"
-#include "servers/visual/still_items.h"
 #include "servers/visual/storage.h"
 
 #include "core/threads.h"
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
@@ -42,6 +37,9 @@ public:
     /// False while a step with Rest::AtOnce would do anything, now or once the worker is done.
     [[nodiscard]] bool is_settled();
 
+    /// True while light transport is being made that some scenario has nothing to show without.
+    [[nodiscard]] bool is_starting() const;
+
     /// Fills the parts of a probe's shading that tell where its light is found.
     void describe(RID probe_instance, const Instance& instance, GIProbeShading& shading) const;
 
@@ -52,55 +50,32 @@ public:
     [[nodiscard]] double upload_ms() const noexcept { return upload_ms_; }
 
 private:
-    /// A probe's place in the field.
-    struct ProbeKey {
-        RID instance;
-        Transform world_from_probe;
-        AABB box;
-        friend bool operator==(const ProbeKey& a, const ProbeKey& b) {
-            return a.instance == b.instance && a.world_from_probe == b.world_from_probe &&
-                   a.box.position == b.box.position && a.box.size == b.box.size;
-        }
-    };
-    /// A still instance and the newest version of its looks.
-    struct ItemKey {
-        RID instance;
-        uint64_t look = 0;
-        friend bool operator==(const ItemKey&, const ItemKey&) = default;
-    };
-    struct Geometry {
-        std::vector<ProbeKey> probes;
-        std::vector<ItemKey> items;
-        Quality quality = Quality::High;
-        friend bool operator==(const Geometry&, const Geometry&) = default;
-    };
-    /// Work for the worker and what comes of it. Shared, so that neither side waits when the other goes.
-    struct Job;
     struct Field {
-        Geometry geometry;
-        std::shared_ptr<const radiosity::Transport> transport;
-        std::shared_ptr<const radiosity::FieldMap> map;
-        std::shared_ptr<radiosity::DirectCache> direct; ///< of the transport; the job's while there is one
+        FieldGeometry geometry;
+        FieldParts parts;
         radiosity::Lighting lighting;
+        FieldReaders readers;
         RID upload; ///< the rasteriser's
         /// What reflections see, one a probe; empty where nothing is glossy.
         std::vector<RID> volumes;
         std::vector<float> ranges;
-        bool glossy = false; ///< volumes are wanted
-        std::shared_ptr<Job> job;
+        std::shared_ptr<FieldJob> job;
     };
     struct Restless {
         uint64_t look = 0, changed_at = 0;
     };
 
-    [[nodiscard]] Geometry wanted_geometry(RID scenario, Rest rest);
-    [[nodiscard]] radiosity::Lighting wanted_lighting(RID scenario, const Geometry& geometry) const;
-    [[nodiscard]] bool has_gloss(RID scenario);
-    Status upload_volumes(Field& field, const Job& job);
+    [[nodiscard]] FieldGeometry wanted_geometry(RID scenario, Rest rest);
+    [[nodiscard]] radiosity::Lighting wanted_lighting(RID scenario, const FieldGeometry& geometry) const;
+    [[nodiscard]] FieldReaders wanted_readers(RID scenario, const FieldGeometry& geometry);
+    Status upload_volumes(Field& field, const FieldJob& job);
     [[nodiscard]] bool rests(RID rid, uint64_t look, Rest rest);
-    void start(Field& field, Geometry geometry, radiosity::Lighting lighting, bool glossy);
+    void start(Field& field, FieldGeometry geometry, radiosity::Lighting lighting,
+               const FieldReaders& readers);
     Status take_in(Field& field);
     void drop(Field& field);
+    /// Tells the instances of a field that they are in it.
+    void mark_still(const Field& field);
     [[nodiscard]] std::vector<RID> scenarios_with_probes() const;
 
     Storage& storage_;

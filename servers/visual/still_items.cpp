@@ -154,14 +154,31 @@ uint64_t look_of(const Storage& storage, const Instance& instance) noexcept {
     return newest;
 }
 
-bool is_glossy(const Storage& storage, const Instance& instance) noexcept {
+namespace {
+
+template <typename Test>
+bool any_material(const Storage& storage, const Instance& instance, const Test& test) noexcept {
     const Mesh* mesh = storage.meshes.get(instance.base);
     for (size_t i = 0; mesh && i < mesh->surfaces.size(); ++i) {
-        if (storage.materials.describe_first(material_choices(instance, *mesh, i)).desc->is_glossy()) {
+        if (test(*storage.materials.describe_first(material_choices(instance, *mesh, i)).desc)) {
             return true;
         }
     }
     return false;
+}
+
+} // namespace
+
+bool is_glossy(const Storage& storage, const Instance& instance) noexcept {
+    return any_material(storage, instance, [](const MaterialDesc& m) { return m.is_glossy(); });
+}
+
+bool reads_air(const Storage& storage, const Instance& instance, bool is_still) noexcept {
+    return instance.casting != ShadowCasting::ShadowsOnly &&
+           any_material(storage, instance, [is_still](const MaterialDesc& m) {
+               const bool is_bent = m.normal_enabled && m.normal_texture;
+               return !m.unshaded && (!is_still || !is_solid(m) || is_bent);
+           });
 }
 
 StillItem describe_still(const Storage& storage, RID rid, const Instance& instance) {

@@ -36,6 +36,10 @@ struct StillItem {
 /// True if any surface of an instance is glossy.
 [[nodiscard]] bool is_glossy(const Storage& storage, const Instance& instance) noexcept;
 
+/// True if any surface of an instance is lit by the air, or has its normal bent by what the air knows.
+/// @param is_still  its solid surfaces are lit by patches
+[[nodiscard]] bool reads_air(const Storage& storage, const Instance& instance, bool is_still) noexcept;
+
 /// All triangles of the items, in world space. Triangles with a number that is not finite are left out.
 [[nodiscard]] radiosity::StillScene make_still_scene(std::span<const StillItem> items);
 

@@ -1,5 +1,7 @@
 #include "tests/servers/radiosity/still_rooms.h"
 
+#include "servers/radiosity/air_light.h"
+
 #include "core/threads.h"
 
 #include <doctest/doctest.h>
@@ -98,9 +100,35 @@ TEST_SUITE("servers/radiosity/laws") {
         for (const glm::vec3& light : solution.arriving) {
             CHECK(light.x == doctest::Approx(2.0f).epsilon(0.01));
         }
-        for (const Solution::Air& air : solution.air[0]) {
-            CHECK(air.mean.x <= 2.01f); // the ball sends on 0.8 of it at most
+        const std::atomic<bool> go_on{false};
+        for (const AirUse use : {AirUse::Gaps, AirUse::Things}) {
+            const std::vector<AirPoints> air = make_air(*room.transport, use, go_on);
+            const std::vector<AirLight> lit = light_air(air, lighting, solution)[0];
+            for (const AirLight& light : lit) {
+                CHECK(light.mean.x <= 2.01f); // the ball sends on 0.8 of it at most
+            }
         }
+    }
+
+    TEST_CASE("faces of a box alone under a graded sky receive what the integral says") {
+        RoomBuilder builder;
+        builder.box(builder.material(glm::vec3(0.8f)), glm::vec3(0.0f), {0.9f, 0.7f, 0.5f});
+        const ProbeBox probe = probe_with_cells(0.1f, 1.4f);
+        const LitRoom room(builder.take(), {&probe, 1});
+        Lighting lighting = darkness();
+        for (uint32_t bin = 0; bin < kSkyBins; ++bin) {
+            lighting.sky[bin] = glm::vec3(1.0f + sky_direction(bin).y);
+        }
+        const Solution solution = room.solve(lighting);
+        for (size_t p = 0; p < solution.arriving.size(); ++p) {
+            // The mean of the cosine to an axis over the hemisphere about n, weighted by the cosine, is 2/3
+            // of that of n.
+            const float expected = 1.0f + 2.0f / 3.0f * room.transport->patches.normal[p].y;
+            CHECK(solution.arriving[p].x == doctest::Approx(expected).epsilon(0.01));
+        }
+        // Six lists for all of them.
+        const Links& links = room.transport->records.links;
+        CHECK(links.targets.size() < 10 * links.points[0].ray_count);
     }
 
     TEST_CASE("in a closed room of coloured walls each channel bounces until all its light is there") {
@@ -210,14 +238,43 @@ TEST_SUITE("servers/radiosity/laws") {
         CHECK(difference / sum < 0.02);
     }
 
+    TEST_CASE("beside surfaces the coarse air has the light of the fine air") {
+        const LitRoom room = furnished_room({}, 0.1f);
+        const Lighting lighting = lamp_in({});
+        const Solution solution = room.solve(lighting);
+        const std::atomic<bool> go_on{false};
+        const std::vector<AirPoints> fine = make_air(*room.transport, AirUse::Things, go_on);
+        const std::vector<AirPoints> coarse = make_air(*room.transport, AirUse::Gaps, go_on);
+        const std::vector<AirLight> fine_light = light_air(fine, lighting, solution)[0];
+        const std::vector<AirLight> coarse_light = light_air(coarse, lighting, solution)[0];
+        double difference = 0.0, sum = 0.0;
+        size_t seen = 0, fine_only = 0;
+        for (size_t i = 0; i < fine_light.size(); ++i) {
+            const bool is_coarse = coarse[0].links.points[i].ray_count > 0;
+            const bool is_fine = fine[0].links.points[i].ray_count > 0;
+            fine_only += is_fine && !is_coarse ? 1 : 0;
+            if (is_coarse && is_fine) {
+                ++seen;
+                difference += std::abs(double(coarse_light[i].mean.x - fine_light[i].mean.x));
+                sum += double(fine_light[i].mean.x);
+            }
+        }
+        CHECK(seen > 100);
+        CHECK(fine_only > seen / 10); // work is saved
+        CHECK(difference / sum < 0.1);
+    }
+
     TEST_CASE("the same bytes come out of one thread and of two, and of a second time") {
         const int threads = thread_count();
         const auto encoded = [](int count) {
             set_thread_count(count);
             const LitRoom room = furnished_room(turned(0.3f), 0.1f);
-            const Solution solution = room.solve(lamp_in(turned(0.3f)));
+            const Lighting lighting = lamp_in(turned(0.3f));
+            const Solution solution = room.solve(lighting);
+            const std::atomic<bool> go_on{false};
+            const std::vector<AirPoints> air = make_air(*room.transport, AirUse::Things, go_on);
             return std::pair(encode_field(room.map, solution),
-                             encode_air(*room.transport, room.map, solution));
+                             encode_air(air, room.map, light_air(air, lighting, solution)));
         };
         const auto one = encoded(1);
         CHECK(one == encoded(2));

@@ -127,6 +127,32 @@ TEST_SUITE("servers/visual/field_driver") {
         CHECK(f.dummy->live().fields == 1);
     }
 
+    TEST_CASE("the air is gathered in full when something is to be lit by it, and once") {
+        FieldFixture f;
+        f.server.settle();
+        const uint64_t coarse = f.light_hash();
+        RID loose;
+        CHECK(f.uploads_after([&] { loose = f.place_box(1.2f, 0, 0); }) == 1); // not used in baked light
+        CHECK(f.dummy->count(CallKind::FieldCreate) == 0);
+        CHECK(f.light_hash() != coarse);
+        CHECK(f.uploads_after([&] { REQUIRE(f.server.instance_set_visible(loose, false)); }) == 0);
+        CHECK(f.uploads_after([&] { REQUIRE(f.server.instance_set_visible(loose, true)); }) == 0);
+        CHECK(f.server.is_settled());
+    }
+
+    TEST_CASE("shaders are compiled while the first light is made, and nothing drawn then is shown") {
+        FieldFixture f;
+        f.dummy->forget_calls();
+        f.server.settle();
+        CHECK(f.dummy->count(CallKind::Draw) == 1);
+        CHECK(!f.server.viewport_read(f.viewport, TargetFormat::Srgb8));
+        f.draw();
+        f.dummy->forget_calls();
+        REQUIRE(f.server.instance_set_transform(f.box, at(0.1f, 0, 0)));
+        f.server.settle();
+        CHECK(f.dummy->count(CallKind::Draw) == 0); // what is drawn is drawn with what is there
+    }
+
     TEST_CASE("energy is read live") {
         FieldFixture f;
         f.server.settle();
