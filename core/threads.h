@@ -15,6 +15,16 @@ void set_thread_count(int count);
 /// done. The split depends on timing: results must not.
 void parallel_for(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
 
+/// Calls f(i) for i in [0, count) on all workers, in no order; each call is worth a task of its own.
+template <typename F>
+void parallel_for_each(size_t count, const F& f) {
+    parallel_for(count, 1, [&f](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            f(i);
+        }
+    });
+}
+
 /// One job at a time off the calling thread, in the order they were pushed.
 class WorkerQueue {
 public:

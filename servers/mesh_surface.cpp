@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -155,16 +156,17 @@ uint16_t half_from_float_truncated(float v) noexcept {
 
 float float_from_half(uint16_t h) noexcept {
     const float sign = (h & 0x8000u) ? -1.0f : 1.0f;
-    const int exponent = (h >> 10) & 31;
-    const int mantissa = h & 1023;
-    if (exponent == 31) {
-        return mantissa ? std::numeric_limits<float>::quiet_NaN()
-                        : sign * std::numeric_limits<float>::infinity();
+    const uint32_t magnitude = h & 0x7FFFu;
+    constexpr uint32_t kInfinity = 0x7C00u, kOneOver2To14 = 0x0400u;
+    if (magnitude >= kInfinity) {
+        return magnitude > kInfinity ? std::numeric_limits<float>::quiet_NaN()
+                                     : sign * std::numeric_limits<float>::infinity();
     }
-    if (exponent == 0) {
-        return sign * std::ldexp(float(mantissa), -24);
+    if (magnitude < kOneOver2To14) { // denormal: no multiple of a float that some thread takes for 0
+        return sign * float(magnitude) * 0x1p-24f;
     }
-    return sign * std::ldexp(float(1024 + mantissa), exponent - 25);
+    constexpr uint32_t kBiasChange = (127u - 15u) << 23;
+    return sign * std::bit_cast<float>((magnitude << 13) + kBiasChange);
 }
 
 } // namespace cl

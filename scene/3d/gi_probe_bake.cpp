@@ -102,7 +102,7 @@ private:
         const std::vector<const MeshSurface*> todo = keys(arrays_);
         std::vector<std::unique_ptr<SurfaceArrays>> made(todo.size());
         std::vector<std::string> errors(todo.size());
-        for_each_on_workers(todo.size(), [&](size_t i) {
+        parallel_for_each(todo.size(), [&](size_t i) {
             Expected<SurfaceArrays> decoded = decode_surface(*todo[i]);
             if (decoded) {
                 made[i] = std::make_unique<SurfaceArrays>(std::move(*decoded));
@@ -126,7 +126,7 @@ private:
             inputs.push_back(material ? material->bake_material() : BakeMaterial{});
         }
         std::vector<std::unique_ptr<gi::MaterialCapture>> made(todo.size());
-        for_each_on_workers(todo.size(), [&](size_t i) {
+        parallel_for_each(todo.size(), [&](size_t i) {
             made[i] = std::make_unique<gi::MaterialCapture>(gi::capture_material(inputs[i].input));
         });
         for (size_t i = 0; i < todo.size(); ++i) {
@@ -142,14 +142,6 @@ private:
             out.push_back(entry.first);
         }
         return out;
-    }
-    template <typename F>
-    static void for_each_on_workers(size_t count, const F& f) {
-        parallel_for(count, 1, [&f](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                f(i);
-            }
-        });
     }
 
     std::unordered_map<const MeshSurface*, std::unique_ptr<SurfaceArrays>> arrays_;

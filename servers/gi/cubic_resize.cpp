@@ -44,6 +44,25 @@ Taps taps_at(int target, int source_size, int target_size) {
     return taps;
 }
 
+using double2 = double __attribute__((vector_size(16)));
+
+/// The weighted sum of 4 x 4 source texels, row after row.
+template <size_t channels>
+std::array<double, 4> weighted_sum(const Image& image, const Taps& rows, const Taps& columns) {
+    double2 red_green{}, blue_alpha{};
+    for (size_t n = 0; n < kTaps; ++n) {
+        const uint8_t* row = image.data.data() + size_t(rows.source[n]) * size_t(image.size.x) * channels;
+        for (size_t m = 0; m < kTaps; ++m) {
+            const uint8_t* texel = row + size_t(columns.source[m]) * channels;
+            const double alpha = channels == 4 ? double(texel[3]) : 255.0;
+            const double weight = rows.weight[n] * columns.weight[m];
+            red_green += double2{double(texel[0]), double(texel[1])} * weight;
+            blue_alpha += double2{double(texel[2]), alpha} * weight;
+        }
+    }
+    return {red_green[0], red_green[1], blue_alpha[0], blue_alpha[1]};
+}
+
 uint8_t rounded_byte(double sum) {
     const float v = float(sum);
     return uint8_t(std::clamp(int(v < 0.0f ? v - 0.5f : v + 0.5f), 0, 255));
@@ -54,7 +73,6 @@ uint8_t rounded_byte(double sum) {
 Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
     CL_ASSERT(image.format == PixelFormat::RGBA8 || image.format == PixelFormat::RGB8, "bytes of a colour");
     CL_ASSERT(image.size.x > 0 && image.size.y > 0, "an image with pixels");
-    const size_t channels = size_t(channel_count(image.format));
     CL_ASSERT(size.x > 0 && size.y > 0, "a size to resize to");
     Image out;
     out.size = size;
@@ -69,18 +87,8 @@ Image resize_cubic_rgba8(const Image& image, glm::ivec2 size) {
     for (int y = 0; y < size.y; ++y) {
         const Taps rows = taps_at(y, image.size.y, size.y);
         for (const Taps& column : columns) {
-            double sum[4] = {0.0, 0.0, 0.0, 0.0};
-            for (size_t n = 0; n < kTaps; ++n) {
-                for (size_t m = 0; m < kTaps; ++m) {
-                    const double weight = rows.weight[n] * column.weight[m];
-                    const size_t at =
-                        size_t(rows.source[n]) * size_t(image.size.x) + size_t(column.source[m]);
-                    for (size_t c = 0; c < channels; ++c) {
-                        sum[c] += image.data[at * channels + c] * weight;
-                    }
-                    sum[3] += channels == 3 ? 255.0 * weight : 0.0;
-                }
-            }
+            const auto sum = image.format == PixelFormat::RGBA8 ? weighted_sum<4>(image, rows, column)
+                                                                : weighted_sum<3>(image, rows, column);
             for (const double channel : sum) {
                 *texel++ = rounded_byte(channel);
             }

@@ -1,197 +1,134 @@
 #include "servers/gi/leaf_sampling.h"
 
 #include "servers/gi/closest_point.h"
-#include "servers/gi/triangle_box.h"
 
 #include <algorithm>
-#include <bitset>
-#include <cmath>
+#include <bit>
 
 namespace cl::gi {
 
 namespace {
 
-constexpr int kColumns = 4; ///< samples along each tangent axis
-
-/// x, y, z summed in that order, as the separating-axis test does.
-float dot(const glm::vec3& a, const glm::vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-glm::vec3 normalized_or_zero(const glm::vec3& v) {
-    const float length = std::sqrt(dot(v, v));
-    return length > 0.0f ? v / length : glm::vec3(0.0f);
-}
-
-struct Sample {
-    glm::vec3 albedo{0.0f};
-    glm::vec3 emission{0.0f};
-    glm::vec3 normal{0.0f};
-};
-
-/// Texture coordinates and normal of a point of the triangle.
+/// Texture coordinates and normals of a triangle's vertices, or of four of its points.
 struct Attributes {
-    glm::vec2 uv{0.0f};
-    glm::vec3 normal{0.0f};
+    float4 u{}, v{};
+    Vec3x4 normal{};
 };
+
+Attributes operator*(const Attributes& a, float4 b) {
+    return {a.u * b, a.v * b, a.normal * b};
+}
+Attributes operator+(const Attributes& a, const Attributes& b) {
+    return {a.u + b.u, a.v + b.v, a.normal + b.normal};
+}
+Attributes chosen(int4 mask, const Attributes& a, const Attributes& b) {
+    return {select(mask, a.u, b.u), select(mask, a.v, b.v), select(mask, a.normal, b.normal)};
+}
 
 Attributes attributes_of_vertex(const PlotSurface& s, uint32_t vertex) {
-    return {s.uvs.empty() ? glm::vec2(0.0f) : s.uvs[vertex],
-            s.normals.empty() ? glm::vec3(0.0f) : s.normals[vertex]};
+    const glm::vec2 uv = s.uvs.empty() ? glm::vec2(0.0f) : s.uvs[vertex];
+    return {splat(uv.x), splat(uv.y), splat(s.normals.empty() ? glm::vec3(0.0f) : s.normals[vertex])};
 }
 
-/// Step 5 of section 5. Also for a q of NaN: its triangle is degenerate, so the determinant is 0.
-Attributes attributes_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q) {
-    constexpr float kSameVertex_m2 = 1e-10f;
-    for (int k = 0; k < 3; ++k) {
-        const glm::vec3 to_vertex = t.v[k] - q;
-        if (dot(to_vertex, to_vertex) < kSameVertex_m2) {
-            return attributes_of_vertex(s, t.vertex[k]);
-        }
-    }
-    const glm::vec3 e0 = t.v[1] - t.v[0];
-    const glm::vec3 e1 = t.v[2] - t.v[0];
-    const glm::vec3 e2 = q - t.v[0];
-    const float d00 = dot(e0, e0);
-    const float d01 = dot(e0, e1);
-    const float d11 = dot(e1, e1);
-    const float d20 = dot(e2, e0);
-    const float d21 = dot(e2, e1);
-    const float determinant = d00 * d11 - d01 * d01;
-    const Attributes a = attributes_of_vertex(s, t.vertex[0]);
-    if (determinant == 0.0f) {
-        return a;
-    }
-    const Attributes b = attributes_of_vertex(s, t.vertex[1]);
-    const Attributes c = attributes_of_vertex(s, t.vertex[2]);
-    const float v = (d11 * d20 - d01 * d21) / determinant;
-    const float w = (d00 * d21 - d01 * d20) / determinant;
-    const float u = 1.0f - v - w;
-    return {a.uv * u + b.uv * v + c.uv * w, normalized_or_zero(a.normal * u + b.normal * v + c.normal * w)};
+Vec3x4 normalized_or_zero(const Vec3x4& v) {
+    const float4 length = square_root(dot(v, v));
+    const int4 has_length = length > float4{};
+    return {{select(has_length, v[0] / length, float4{}), select(has_length, v[1] / length, float4{}),
+             select(has_length, v[2] / length, float4{})}};
 }
 
-/// Texel along one axis: repeat wrap, no filter (step 6). NaN and infinity, which half UVs can hold, give 0.
-size_t texel_along(float u) {
-    float fraction = u - std::trunc(u); // exact, as fmod(u, 1) is, which takes ten times as long
-    if (fraction < 0.0f) {
-        fraction += 1.0f;
-    }
-    return fraction > 0.0f ? size_t(std::min(int(fraction * float(kCaptureSize)), kCaptureSize - 1)) : 0;
+/// Texels along one axis: repeat wrap, no filter (step 6). NaN and infinity, which half UVs can hold, give 0.
+int4 texels_along(float4 u) {
+    const int4 has_fraction = magnitude(u) < splat(8388608.0f); // 2^23: beyond, all numbers are whole
+    const float4 finite = select(has_fraction, u, float4{});
+    float4 fraction = finite - to_float(to_int(finite)); // exact, as fmod(u, 1) is
+    fraction = select(fraction < float4{}, fraction + 1.0f, fraction);
+    return to_int(lesser(fraction * float(kCaptureSize), splat(float(kCaptureSize - 1))));
 }
 
-const glm::vec3& texel_of(const std::vector<glm::vec3>& map, const glm::vec2& uv) {
-    return map.size() == 1 ? map[0] : map[texel_along(uv.y) * size_t(kCaptureSize) + texel_along(uv.x)];
-}
+/// What a triangle shows at up to four of its points.
+struct Samples {
+    int4 texel; ///< of maps of kCaptureSize^2 texels
+    Vec3x4 normal;
+};
 
-Sample sample_at(const PlotTriangle& t, const PlotSurface& s, const glm::vec3& q) {
-    const Attributes at = attributes_at(t, s, q);
-    return {texel_of(s.material->albedo, at.uv), texel_of(s.material->emission, at.uv), at.normal};
-}
-
-/// Columns of a leaf along a triangle's main axis, four at a time.
-class Columns {
+/// A triangle while one leaf is sampled.
+class SampledTriangle {
 public:
-    Columns(const LeafBox& leaf, const PlotTriangle& t)
-        : leaf_(leaf), t_(t), u_((t.axis + 1) % 3), w_((t.axis + 2) % 3),
-          step_m_(leaf.size_m / float(kColumns)) {}
+    SampledTriangle(const PlotTriangle& t, const PlotSurface& s)
+        : t_(t), s_(s),
+          edges_(t.v), vertices_{attributes_of_vertex(s, t.vertex[0]), attributes_of_vertex(s, t.vertex[1]),
+                                 attributes_of_vertex(s, t.vertex[2])} {}
 
-    /// Bit (4 i + j) is set where the triangle touches the column at steps i along u and j along w.
-    [[nodiscard]] uint32_t touched() const {
-        if (all_are_sure()) {
-            return 0xFFFFu;
+    /// At the points nearest to p (steps 4 to 6); normals may be zero.
+    [[nodiscard]] Samples near(const Vec3x4& p) const { return at(closest_points_of_triangle(edges_, p)); }
+
+    /// At points of the triangle.
+    [[nodiscard]] Samples at(const Vec3x4& q) const {
+        const Attributes found = attributes_at(q);
+        return {texels_along(found.v) * kCaptureSize + texels_along(found.u), found.normal};
+    }
+
+    /// A zero normal falls back to the plane's.
+    [[nodiscard]] Samples with_normal(Samples samples) const {
+        const Vec3x4& n = samples.normal;
+        const int4 is_zero = (n[0] == float4{}) & (n[1] == float4{}) & (n[2] == float4{});
+        samples.normal = select(is_zero, splat(t_.plane_normal), n);
+        return samples;
+    }
+
+    /// Adds the first `count` samples, one after the other.
+    void add(const Samples& samples, int count, LeafSum& sum) const {
+        for (int i = 0; i < count; ++i) {
+            sum.albedo += s_.material->albedo[size_t(samples.texel[i])];
+            sum.emission += s_.material->emission[size_t(samples.texel[i])];
+            sum.normal += lane(samples.normal, i);
+            sum.alpha += 1.0f;
         }
-        uint32_t columns = 0;
-        for (int i = 0; i < kColumns; ++i) {
-            const Boxes<float4> boxes = at(splat(float(i)), float4{0.0f, 1.0f, 2.0f, 3.0f});
-            columns |= overlapping_boxes(boxes, t_.v, t_.center_test, 0.5f * step_m_) << (kColumns * i);
-        }
-        return columns;
     }
 
 private:
-    /// True if the cheap test settles the four columns at the corners: what it asks of their middles then
-    /// holds between them.
-    [[nodiscard]] bool all_are_sure() const {
-        if (0.5f * step_m_ < t_.center_test.least_half_m) {
-            return false;
+    /// Step 5 of section 5. Also for a q of NaN: its triangle is degenerate, so the determinant is 0.
+    [[nodiscard]] Attributes attributes_at(const Vec3x4& q) const {
+        const TriangleEdges& f = edges_;
+        Attributes at = vertices_[0];
+        if (f.determinant != 0.0f) {
+            const Vec3x4 e2 = q - splat(f.v0);
+            const float4 d20 = dot(e2, splat(f.e0));
+            const float4 d21 = dot(e2, splat(f.e1));
+            const float4 v = (f.c * d20 - f.b * d21) / f.determinant;
+            const float4 w = (f.a * d21 - f.b * d20) / f.determinant;
+            const float4 u = 1.0f - v - w;
+            at = vertices_[0] * u + vertices_[1] * v + vertices_[2] * w;
+            at.normal = normalized_or_zero(at.normal);
         }
-        const Boxes<float4> corners = at(float4{0.0f, 0.0f, 3.0f, 3.0f}, float4{0.0f, 3.0f, 0.0f, 3.0f});
-        return lane_bits(surely_touches(t_.center_test, corners)) == 15u &&
-               lane_bits(separated_by_box_axis(corners, t_.v)) == 0u;
+        constexpr float kSameVertex_m2 = 1e-10f;
+        for (int k = 3; k-- > 0;) { // the first that is near has the last word
+            const Vec3x4 to_vertex = splat(t_.v[k]) - q;
+            const int4 is_near = dot(to_vertex, to_vertex) < splat(kSameVertex_m2);
+            if (lane_bits(is_near) != 0u) {
+                at = chosen(is_near, vertices_[k], at);
+            }
+        }
+        return at;
     }
 
-    [[nodiscard]] Boxes<float4> at(float4 i, float4 j) const {
-        Boxes<float4> boxes;
-        place(boxes, t_.axis, splat(leaf_.position[t_.axis]), leaf_.size_m);
-        place(boxes, u_, leaf_.position[u_] + i * step_m_, step_m_);
-        place(boxes, w_, leaf_.position[w_] + j * step_m_, step_m_);
-        return boxes;
-    }
-    static void place(Boxes<float4>& boxes, int axis, float4 from, float size) {
-        const float4 to = from + size;
-        boxes.half[axis] = (to - from) * 0.5f;
-        boxes.center[axis] = from + boxes.half[axis];
-    }
-
-    const LeafBox& leaf_;
     const PlotTriangle& t_;
-    int u_, w_;
-    float step_m_;
+    const PlotSurface& s_;
+    TriangleEdges edges_;
+    Attributes vertices_[3];
 };
 
-/// Where the column's axis meets the triangle, or comes nearest to it (steps 2 to 4).
-glm::vec3 point_in_column(const LeafBox& leaf, const PlotTriangle& t, int i, int j) {
-    const int axis = t.axis;
-    const int u = (axis + 1) % 3;
-    const int w = (axis + 2) % 3;
-    const float step = leaf.size_m / float(kColumns);
-    glm::vec3 a = leaf.position; // spans one cell below the leaf to its top
-    a[u] = leaf.position[u] + float(i) * step + step * 0.5f;
-    a[w] = leaf.position[w] + float(j) * step + step * 0.5f;
-    a[axis] = leaf.position[axis] - leaf.size_m;
-    glm::vec3 b = a;
-    b[axis] = a[axis] + 2.0f * leaf.size_m;
-    if (dot(t.plane_normal, a - b) < 0.0f) {
-        std::swap(a, b);
-    }
-    constexpr float kEpsilon = 1e-5f;
-    const glm::vec3 along = a - b;
-    const float denominator = dot(t.plane_normal, along);
-    const float distance_a = dot(t.plane_normal, a) - t.plane_d;
-    if (std::abs(denominator) >= kEpsilon) {
-        const float s = distance_a / denominator;
-        if (s >= -kEpsilon && s <= 1.0f + kEpsilon) {
-            return closest_point_of_triangle(t.v, a - s * along);
-        }
-    }
-    const float distance_b = dot(t.plane_normal, b) - t.plane_d;
-    const bool a_is_nearer = std::abs(distance_a) < std::abs(distance_b);
-    const glm::vec3 projected =
-        a_is_nearer ? a - t.plane_normal * distance_a : b - t.plane_normal * distance_b;
-    return closest_point_of_triangle(t.v, projected);
-}
-
-void add(LeafSum& sum, const Sample& sample) {
-    sum.albedo += sample.albedo;
-    sum.emission += sample.emission;
-    sum.normal += sample.normal;
-}
-
-/// A zero normal falls back to the plane's.
-Sample with_normal(Sample sample, const PlotTriangle& t) {
-    sample.normal = sample.normal == glm::vec3(0.0f) ? t.plane_normal : sample.normal;
-    return sample;
-}
-
-/// Sums the samples of all touched columns.
-LeafSum sum_columns(const LeafBox& leaf, const PlotTriangle& t, const PlotSurface& s, uint32_t columns) {
+/// Sums the samples of columns, four at a time.
+template <int axis>
+LeafSum sum_columns(const LeafColumns<axis>& leaf, const PlotTriangle& t, const PlotSurface& s,
+                    uint32_t columns) {
+    const SampledTriangle triangle(t, s);
     LeafSum sum;
-    for (int bit = 0; bit < kColumns * kColumns; ++bit) {
-        if ((columns >> bit) & 1u) {
-            const glm::vec3 q = point_in_column(leaf, t, bit / kColumns, bit % kColumns);
-            add(sum, with_normal(sample_at(t, s, q), t));
-            sum.alpha += 1.0f;
-        }
+    while (columns != 0u) {
+        const ColumnGroup group(columns);
+        const Samples samples = triangle.near(leaf.points_on_plane(group));
+        triangle.add(triangle.with_normal(samples), group.count(), sum);
     }
     return sum;
 }
@@ -201,28 +138,37 @@ LeafSum sum_columns(const LeafBox& leaf, const PlotTriangle& t, const PlotSurfac
 const LeafSum& LeafSampler::uniform_sum(const PlotTriangle& t, const PlotSurface& s, int count) noexcept {
     UniformSums& sums = known_[size_t(t.vertex[0] + t.vertex[1] + t.vertex[2]) % known_.size()];
     if (sums.triangle != &t) {
-        const Sample sample = with_normal(sample_at(t, s, t.v[0]), t);
+        const SampledTriangle triangle(t, s);
+        const Samples samples = triangle.with_normal(triangle.at(splat(t.v[0])));
         sums.triangle = &t;
         for (size_t n = 1; n < sums.of.size(); ++n) {
             sums.of[n] = sums.of[n - 1];
-            add(sums.of[n], sample);
-            sums.of[n].alpha += 1.0f;
+            triangle.add(samples, 1, sums.of[n]);
         }
     }
     return sums.of[size_t(count)];
 }
 
-void LeafSampler::plot(const LeafBox& leaf, const PlotTriangle& triangle, const PlotSurface& surface,
-                       LeafSum& sum) noexcept {
-    constexpr float kSampleWeight = 1.0f / float(kColumns * kColumns);
-    const uint32_t columns = Columns(leaf, triangle).touched();
-    LeafSum own = triangle.is_uniform ? uniform_sum(triangle, surface, int(std::bitset<16>(columns).count()))
-                                      : sum_columns(leaf, triangle, surface, columns);
-    if (columns == 0) { // numerically missed by every column: one sample, whose zero normal stays zero
-        const glm::vec3 center = leaf.position + leaf.size_m * 0.5f;
-        add(own, sample_at(triangle, surface, closest_point_of_triangle(triangle.v, center)));
-        own.alpha = 1.0f;
+template <int axis>
+LeafSum LeafSampler::sum_of(const LeafBox& leaf, const PlotTriangle& t, const CenterTest& center_test,
+                            const PlotSurface& s) noexcept {
+    const LeafColumns<axis> columns(leaf, t);
+    const uint32_t touched = columns.touched(center_test);
+    if (touched == 0u) { // numerically missed by every column: one sample, whose zero normal stays zero
+        const SampledTriangle triangle(t, s);
+        LeafSum sum;
+        triangle.add(triangle.near(splat(leaf.position + leaf.size_m * 0.5f)), 1, sum);
+        return sum;
     }
+    return t.is_uniform ? uniform_sum(t, s, std::popcount(touched)) : sum_columns(columns, t, s, touched);
+}
+
+void LeafSampler::plot(const LeafBox& leaf, const PlotTriangle& t, const CenterTest& center_test,
+                       const PlotSurface& s, LeafSum& sum) noexcept {
+    constexpr float kSampleWeight = 1.0f / float(kColumns * kColumns);
+    const LeafSum own = t.axis == 0   ? sum_of<0>(leaf, t, center_test, s)
+                        : t.axis == 1 ? sum_of<1>(leaf, t, center_test, s)
+                                      : sum_of<2>(leaf, t, center_test, s);
     sum.albedo += own.albedo * kSampleWeight;
     sum.emission += own.emission * kSampleWeight;
     sum.normal += own.normal * kSampleWeight;

@@ -21,22 +21,10 @@ Image captured_texels(const Image& texture) {
     return rgba8.size == kSize ? rgba8 : resize_cubic_rgba8(rgba8, kSize);
 }
 
-/// texel * scale + offset; one texel where there is no texture. A texture without pixels counts as black.
-std::vector<glm::vec3> captured_map(const Image* texture, const glm::vec3& scale, const glm::vec3& offset) {
-    if (!texture || !has_pixels(*texture)) {
-        return {offset};
-    }
-    const Image texels = captured_texels(*texture);
-    std::vector<glm::vec3> map(size_t(kCaptureSize) * kCaptureSize);
-    for (size_t i = 0; i < map.size(); ++i) {
-        for (int c = 0; c < 3; ++c) {
-            // In double until the end: albedo bytes are truncated later, so the last bit decides some of
-            // them.
-            const double share = texels.data[i * 4 + size_t(c)] / 255.0;
-            map[i][c] = float(share * double(scale[c]) + double(offset[c]));
-        }
-    }
-    return map;
+/// texel * scale + offset; one colour where there is no texture. A texture without pixels counts as black.
+CapturedMap captured_map(const Image* texture, const glm::vec3& scale, const glm::vec3& offset) {
+    return texture && has_pixels(*texture) ? CapturedMap(captured_texels(*texture), scale, offset)
+                                           : CapturedMap(offset);
 }
 
 } // namespace
@@ -46,7 +34,7 @@ MaterialCapture capture_material(const CaptureInput& input) {
     const glm::vec3 emission = input.emission_color * input.emission_energy;
     MaterialCapture capture;
     capture.albedo = input.albedo_texture ? captured_map(input.albedo_texture, input.albedo_color, none)
-                                          : std::vector<glm::vec3>{input.albedo_color};
+                                          : CapturedMap(input.albedo_color);
     capture.emission = input.emission_multiply
                            ? captured_map(input.emission_texture, emission, none)
                            : captured_map(input.emission_texture, glm::vec3(input.emission_energy), emission);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cl::gi {
 
@@ -72,17 +73,18 @@ Cell empty_cell(int level) noexcept {
     return cell;
 }
 
-float SubtreeBuilder::build(const CellBox& box, std::span<const uint32_t> touching) {
-    ids_.assign(touching.begin(), touching.end());
+float SubtreeBuilder::build(const CellBox& box, const Content& content) {
+    ids_.assign(content.broad.begin(), content.broad.end());
     masks_.clear();
-    const float alpha = build_cell(box, {0, ids_.size()});
+    small_ = content.small;
+    const float alpha = build_cell(box, content.number, {0, ids_.size()});
     count_cells();
     return alpha;
 }
 
-float SubtreeBuilder::build_cell(const CellBox& box, List touching) {
+float SubtreeBuilder::build_cell(const CellBox& box, uint32_t number, List touching) {
     if (box.level == grid_.levels - 1) {
-        build_leaf(box, touching);
+        build_leaf(box, number, touching);
         return 1.0f;
     }
     const size_t index = cells_.size();
@@ -91,9 +93,10 @@ float SubtreeBuilder::build_cell(const CellBox& box, List touching) {
 
     const Octants octants = octants_of(grid_, box);
     const size_t masks_begin = masks_.size();
-    uint32_t any = 0;
+    uint32_t any = octants_with_small(box.level, number);
     for (size_t i = 0; i < touching.count; ++i) {
-        masks_.push_back(touched_octants(octants, triangles_[ids_[touching.begin + i]]));
+        const BroadTriangle& broad = triangles_.broad[ids_[touching.begin + i]];
+        masks_.push_back(touched_octants(octants, triangles_.by_number[broad.triangle].v, broad.center_test));
         any |= masks_.back();
     }
     float child_alphas = 0.0f;
@@ -103,13 +106,26 @@ float SubtreeBuilder::build_cell(const CellBox& box, List touching) {
         }
         cells_[index].children[slot] = uint32_t(cells_.size());
         const List list = push_children_list(touching, masks_begin, slot);
-        child_alphas += build_cell(child_cell(grid_, box, slot), list);
+        child_alphas += build_cell(child_cell(grid_, box, slot), number * 8 + uint32_t(slot), list);
         ids_.resize(list.begin);
     }
     masks_.resize(masks_begin);
     const float alpha = child_alphas / 8.0f;
     cells_[index].level_alpha = encode_level_alpha(box.level, alpha);
     return alpha;
+}
+
+uint32_t SubtreeBuilder::octants_with_small(int level, uint32_t number) const {
+    const int child_bits = 3 * (grid_.levels - 2 - level);
+    uint32_t octants = 0;
+    auto next = small_.begin();
+    while (next != small_.end() && (next->leaf >> child_bits) / 8 == number) {
+        const uint32_t child = next->leaf >> child_bits;
+        octants |= 1u << (child % 8);
+        next = std::partition_point(next, small_.end(),
+                                    [&](const LeafPlot& p) { return (p.leaf >> child_bits) == child; });
+    }
+    return octants;
 }
 
 SubtreeBuilder::List SubtreeBuilder::push_children_list(List touching, size_t masks_begin, int slot) {
@@ -123,12 +139,26 @@ SubtreeBuilder::List SubtreeBuilder::push_children_list(List touching, size_t ma
     return list;
 }
 
-void SubtreeBuilder::build_leaf(const CellBox& box, List touching) {
+void SubtreeBuilder::build_leaf(const CellBox& box, uint32_t number, List touching) {
+    static const CenterTest kNoTest;
+    const LeafBox leaf{box.position, box.size_m};
     LeafSum sum;
+    const auto plot = [&](uint32_t triangle, const CenterTest& test) {
+        const PlotTriangle& t = triangles_.by_number[triangle];
+        sampler_.plot(leaf, t, test, surfaces_[t.surface], sum);
+    };
+    const auto plot_small_below = [&](uint32_t triangle) {
+        while (!small_.empty() && small_.front().leaf == number && small_.front().triangle < triangle) {
+            plot(small_.front().triangle, kNoTest);
+            small_ = small_.subspan(1);
+        }
+    };
     for (size_t i = 0; i < touching.count; ++i) {
-        const PlotTriangle& t = triangles_[ids_[touching.begin + i]];
-        sampler_.plot({box.position, box.size_m}, t, surfaces_[t.surface], sum);
+        const BroadTriangle& broad = triangles_.broad[ids_[touching.begin + i]];
+        plot_small_below(broad.triangle);
+        plot(broad.triangle, broad.center_test);
     }
+    plot_small_below(std::numeric_limits<uint32_t>::max());
     cells_.push_back(leaf_cell(box.level, sum));
     ++leaf_count_;
 }

@@ -33,10 +33,11 @@ struct Octants {
 };
 [[nodiscard]] Octants octants_of(const Grid& grid, const CellBox& parent) noexcept;
 /// Bit of each slot inside the grid that the triangle touches.
-[[nodiscard]] inline uint8_t touched_octants(const Octants& octants, const PlotTriangle& triangle) noexcept {
+[[nodiscard]] inline uint8_t touched_octants(const Octants& octants, const glm::vec3 (&vertices)[3],
+                                             const CenterTest& center_test) noexcept {
     const float half_m = octants.lower.half[0][0];
-    const uint32_t lower = overlapping_boxes(octants.lower, triangle.v, triangle.center_test, half_m);
-    const uint32_t upper = overlapping_boxes(octants.upper, triangle.v, triangle.center_test, half_m);
+    const uint32_t lower = overlapping_boxes(octants.lower, vertices, center_test, half_m);
+    const uint32_t upper = overlapping_boxes(octants.upper, vertices, center_test, half_m);
     return uint8_t((lower | (upper << 4)) & octants.inside);
 }
 
@@ -50,19 +51,26 @@ struct BakeControl {
 /// A cell without children, colours or opacity.
 [[nodiscard]] Cell empty_cell(int level) noexcept;
 
-/// Builds the subtree below one cell. Triangles go down the tree together, as a list that each cell filters
-/// for its children, so every leaf is finished in one visit and needs no accumulator; the tests made, the
-/// order of sums in a leaf, and hence every bit, are those of descending triangle after triangle.
+/// Builds the subtree below one cell. Broad triangles go down the tree together, as a list that each cell
+/// filters for its children, and small ones wait at their leaves, so every leaf is finished in one visit and
+/// needs no accumulator; the tests' outcomes, the order of sums in a leaf, and hence every bit, are those of
+/// descending triangle after triangle.
 class SubtreeBuilder {
 public:
-    SubtreeBuilder(const Grid& grid, std::span<const PlotSurface> surfaces,
-                   std::span<const PlotTriangle> triangles, BakeControl& control)
+    SubtreeBuilder(const Grid& grid, std::span<const PlotSurface> surfaces, const PlotTriangles& triangles,
+                   BakeControl& control)
         : grid_(grid), surfaces_(surfaces), triangles_(triangles), control_(control) {}
 
+    /// What lies below a cell.
+    struct Content {
+        std::span<const uint32_t> broad; ///< numbers in PlotTriangles::broad that touch the cell, ascending
+        std::span<const LeafPlot> small; ///< of its leaves, by leaf, then triangle
+        uint32_t number;                 ///< slots from the root to the cell, three bits a level
+    };
     /// Appends the cell and all below it to cells(), parents first, slots in order; child indices count from
     /// the start of cells(). Stops early, with an unusable result, once control.stop is set.
-    /// @param touching  triangles that touch the cell, ascending. @return the cell's alpha.
-    float build(const CellBox& box, std::span<const uint32_t> touching);
+    /// @return the cell's alpha.
+    float build(const CellBox& box, const Content& content);
 
     [[nodiscard]] const std::vector<Cell>& cells() const noexcept { return cells_; }
     [[nodiscard]] std::vector<Cell> take_cells() noexcept { return std::move(cells_); }
@@ -74,20 +82,22 @@ private:
         size_t begin = 0;
         size_t count = 0;
     };
-    float build_cell(const CellBox& box, List touching);
-    void build_leaf(const CellBox& box, List touching);
+    float build_cell(const CellBox& box, uint32_t number, List touching);
+    void build_leaf(const CellBox& box, uint32_t number, List touching);
     List push_children_list(List touching, size_t masks_begin, int slot);
+    [[nodiscard]] uint32_t octants_with_small(int level, uint32_t number) const;
     void count_cells();
 
     const Grid& grid_;
     std::span<const PlotSurface> surfaces_;
-    std::span<const PlotTriangle> triangles_;
+    const PlotTriangles& triangles_;
     BakeControl& control_;
     LeafSampler sampler_;
     std::vector<Cell> cells_;
     size_t counted_cells_ = 0;
     uint32_t leaf_count_ = 0;
-    // Stacks of the descent: a list of triangles and their octant bits for each cell on the path.
+    std::span<const LeafPlot> small_; ///< those of leaves that are not built yet
+    // Stacks of the descent: a list of broad triangles and their octant bits for each cell on the path.
     std::vector<uint32_t> ids_;
     std::vector<uint8_t> masks_;
 };

@@ -1,5 +1,6 @@
 #include "servers/gi/plot_triangle.h"
 
+#include "servers/gi/small_triangles.h"
 #include "servers/gi/triangle_box.h"
 
 #include "core/threads.h"
@@ -22,10 +23,6 @@ size_t corner_count(const PlotSurface& s) {
     return s.indices.empty() ? s.positions.size() : s.indices.size();
 }
 
-bool fits_capture(size_t texels) {
-    return texels == 1 || texels == size_t(kCaptureSize) * kCaptureSize;
-}
-
 Error invalid(size_t surface, const std::string& message) {
     return {ErrorCode::InvalidArgument, fmt::format("plot surface {}: {}", surface, message)};
 }
@@ -43,9 +40,8 @@ Status check_surface(const PlotSurface& s, size_t number) {
             return invalid(number, fmt::format("expected indices below {}, found {}", n, index));
         }
     }
-    if (!s.material || !fits_capture(s.material->albedo.size()) ||
-        !fits_capture(s.material->emission.size())) {
-        return invalid(number, "expected a material of 1 or 16384 texels, found none or other sizes");
+    if (!s.material) {
+        return invalid(number, "expected a material, found none");
     }
     return {};
 }
@@ -91,50 +87,18 @@ void set_plane(PlotTriangle& t) {
     t.axis = dominant_axis(t.plane_normal);
 }
 
-/// Triangles of a surface that one worker looks at.
+/// Triangles of a surface that one worker looks at, and what it finds.
 struct Part {
     uint32_t surface;
     size_t begin, end; ///< corners
-    std::vector<PlotTriangle> found;
+    uint32_t first_triangle;
+    std::vector<BroadTriangle> broad;
+    std::vector<LeafPlot> small;
 };
 
 constexpr size_t kPartCorners = 3 * 4096;
 
-float longest_side(const PlotTriangle& t) {
-    const glm::vec3 size =
-        glm::max(glm::max(t.v[0], t.v[1]), t.v[2]) - glm::min(glm::min(t.v[0], t.v[1]), t.v[2]);
-    return std::max(size.x, std::max(size.y, size.z));
-}
-
-void collect(const PlotSurface& s, const Boxes<float>& box, float leaf_m, Part& part) {
-    for (size_t i = part.begin; i < part.end; i += 3) {
-        PlotTriangle t{};
-        t.surface = part.surface;
-        bool usable = true;
-        for (size_t k = 0; k < 3; ++k) {
-            t.vertex[k] = s.indices.empty() ? uint32_t(i + k) : s.indices[i + k];
-            t.v[k] = s.local_from_mesh.xform(s.positions[t.vertex[k]]);
-            usable = usable && is_usable(t.v[k]);
-        }
-        if (!usable || separated(box, t.v)) {
-            continue;
-        }
-        set_plane(t);
-        t.is_uniform = is_uniform(s, t.vertex);
-        if (longest_side(t) > leaf_m) { // smaller ones cover no middle that would pay for it
-            t.center_test = make_center_test(t.v, t.axis);
-        }
-        part.found.push_back(t);
-    }
-}
-
-} // namespace
-
-Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces, const AABB& box,
-                                                      float leaf_m) {
-    const glm::vec3 half = box.size * 0.5f;
-    const glm::vec3 center = box.position + half;
-    const Boxes<float> boxes{{center.x, center.y, center.z}, {half.x, half.y, half.z}};
+Expected<std::vector<Part>> make_parts(std::span<const PlotSurface> surfaces) {
     std::vector<Part> parts;
     size_t corners = 0;
     for (size_t i = 0; i < surfaces.size(); ++i) {
@@ -142,25 +106,83 @@ Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurfac
             return s.error();
         }
         const size_t count = corner_count(surfaces[i]) / 3 * 3;
-        corners += count;
-        if (corners / 3 > kMaxTriangles) {
+        if ((corners + count) / 3 > kMaxTriangles) {
             return Error{ErrorCode::OutOfMemory,
                          fmt::format("bake: expected at most {} triangles, found more", kMaxTriangles)};
         }
         for (size_t begin = 0; begin < count; begin += kPartCorners) {
-            parts.push_back({uint32_t(i), begin, std::min(begin + kPartCorners, count), {}});
+            const size_t end = std::min(begin + kPartCorners, count);
+            parts.push_back({uint32_t(i), begin, end, uint32_t((corners + begin) / 3), {}, {}});
+        }
+        corners += count;
+    }
+    return parts;
+}
+
+/// @return false for a triangle that is left out.
+bool set_triangle(const PlotSurface& s, size_t corner, const Boxes<float>& box, PlotTriangle& t) {
+    for (size_t k = 0; k < 3; ++k) {
+        t.vertex[k] = s.indices.empty() ? uint32_t(corner + k) : s.indices[corner + k];
+        t.v[k] = s.local_from_mesh.xform(s.positions[t.vertex[k]]);
+        if (!is_usable(t.v[k])) {
+            return false;
         }
     }
-    parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            collect(surfaces[parts[i].surface], boxes, leaf_m, parts[i]);
+    if (!lies_within(box, t.v) && separated(box, t.v)) {
+        return false;
+    }
+    set_plane(t);
+    t.is_uniform = is_uniform(s, t.vertex);
+    return true;
+}
+
+void collect(const PlotSurface& s, const Boxes<float>& box, const SmallTriangles& small, Part& part,
+             PlotTriangle* triangles) {
+    for (size_t corner = part.begin; corner < part.end; corner += 3) {
+        const uint32_t number = part.first_triangle + uint32_t((corner - part.begin) / 3);
+        PlotTriangle& t = triangles[number];
+        if (!set_triangle(s, corner, box, t)) {
+            continue;
         }
+        t.surface = part.surface;
+        SmallTriangles::Leaves leaves;
+        if (small.find_leaves(t.v, leaves)) {
+            for (const uint32_t leaf : leaves) {
+                part.small.push_back({leaf, number});
+            }
+        } else {
+            part.broad.push_back({number, make_center_test(t.v, t.axis)});
+        }
+    }
+}
+
+} // namespace
+
+Expected<PlotTriangles> collect_triangles(std::span<const PlotSurface> surfaces, const Grid& grid) {
+    Expected<std::vector<Part>> parts = make_parts(surfaces);
+    if (!parts) {
+        return parts.error();
+    }
+    const glm::vec3 half = grid.box.size * 0.5f;
+    const glm::vec3 center = grid.box.position + half;
+    const Boxes<float> box{{center.x, center.y, center.z}, {half.x, half.y, half.z}};
+    const SmallTriangles small(grid);
+    PlotTriangles all;
+    const size_t count =
+        parts->empty() ? 0 : parts->back().first_triangle + (parts->back().end - parts->back().begin) / 3;
+    // Not set to 0: a third of the time would go into pages that the triangles below touch anyway.
+    all.by_number = std::make_unique_for_overwrite<PlotTriangle[]>(count);
+    parallel_for_each(parts->size(), [&](size_t i) {
+        Part& part = (*parts)[i];
+        collect(surfaces[part.surface], box, small, part, all.by_number.get());
     });
-    std::vector<PlotTriangle> triangles;
-    for (const Part& part : parts) {
-        triangles.insert(triangles.end(), part.found.begin(), part.found.end());
+    std::vector<std::span<const LeafPlot>> plots;
+    for (const Part& part : *parts) {
+        all.broad.insert(all.broad.end(), part.broad.begin(), part.broad.end());
+        plots.emplace_back(part.small);
     }
-    return triangles;
+    all.small = LeafPlots(plots, grid.levels);
+    return all;
 }
 
 } // namespace cl::gi

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "servers/gi/center_test.h"
+#include "servers/gi/leaf_plots.h"
 #include "servers/gi/voxelizer.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,15 +25,26 @@ struct PlotTriangle {
     /// interpolation cannot move. Lets most walls skip the interpolation (spec gi-bake section 5, steps 2 to
     /// 6).
     bool is_uniform;
+};
+
+/// A triangle that may cover whole leaves.
+struct BroadTriangle {
+    uint32_t triangle;
     CenterTest center_test;
 };
 
-/// The triangles of all surfaces that touch `box`, in plot order (surface after surface, triangle after
-/// triangle; spec gi-bake section 4). Triangles with a coordinate that is not finite or beyond 1e12 m are
-/// left out: their separating-axis test would overflow and find them everywhere.
-/// @param leaf_m  edge of a leaf: triangles that are smaller get no center_test
+/// The triangles of all surfaces, numbered in plot order (surface after surface, triangle after triangle;
+/// spec gi-bake section 4).
+struct PlotTriangles {
+    std::unique_ptr<PlotTriangle[]> by_number; ///< those that are neither broad nor small are not set
+    std::vector<BroadTriangle> broad;          ///< ascending
+    LeafPlots small;                           ///< the leaves that each of the other triangles touches
+};
+
+/// Prepares the triangles that touch the grid's box. Those with a coordinate that is not finite or beyond
+/// 1e12 m are left out: their separating-axis test would overflow and find them everywhere.
 /// @return InvalidArgument where arrays do not fit together; OutOfMemory beyond 2^31 triangles.
-[[nodiscard]] Expected<std::vector<PlotTriangle>> collect_triangles(std::span<const PlotSurface> surfaces,
-                                                                    const AABB& box, float leaf_m);
+[[nodiscard]] Expected<PlotTriangles> collect_triangles(std::span<const PlotSurface> surfaces,
+                                                        const Grid& grid);
 
 } // namespace cl::gi

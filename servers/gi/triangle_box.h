@@ -34,16 +34,22 @@ inline CenteredTriangle<F> centered(const Boxes<F>& boxes, const glm::vec3 (&ver
     return t;
 }
 
+/// True where one axis of the boxes separates.
+template <typename F>
+inline auto separated_by_box_axis(int axis, const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
+    // Subtracting the centre keeps the order of numbers: the least is found before, not of three differences.
+    const float v0 = vertices[0][axis], v1 = vertices[1][axis], v2 = vertices[2][axis];
+    const F lo = lesser(lesser(v0, v1), v2) - boxes.center[axis];
+    const F hi = greater(greater(v0, v1), v2) - boxes.center[axis];
+    return either(lo > boxes.half[axis], hi < -boxes.half[axis]);
+}
+
 /// True where a box axis separates (rule 2 of spec gi-bake section 4.1).
 template <typename F>
 inline auto separated_by_box_axis(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
-    // Subtracting the centre keeps the order of numbers: the least is found before, not of three differences.
-    const auto on = [&](int a) {
-        const F lo = lesser(lesser(vertices[0][a], vertices[1][a]), vertices[2][a]) - boxes.center[a];
-        const F hi = greater(greater(vertices[0][a], vertices[1][a]), vertices[2][a]) - boxes.center[a];
-        return either(lo > boxes.half[a], hi < -boxes.half[a]);
-    };
-    return either(either(on(0), on(1)), on(2));
+    return either(
+        either(separated_by_box_axis(0, boxes, vertices), separated_by_box_axis(1, boxes, vertices)),
+        separated_by_box_axis(2, boxes, vertices));
 }
 
 /// True where the cross product of an edge and a coordinate axis separates (rule 1). All three axes are one
@@ -69,11 +75,12 @@ inline auto separated_by_edge_axis(const Boxes<F>& boxes, const CenteredTriangle
     return either(lesser(pa, pb) > radius, greater(pa, pb) < -radius);
 }
 
-template <int edge, typename F>
-inline auto separated_by_edge(const Boxes<F>& boxes, const CenteredTriangle<F>& t) noexcept {
-    return either(
-        either(separated_by_edge_axis<edge, 0>(boxes, t), separated_by_edge_axis<edge, 1>(boxes, t)),
-        separated_by_edge_axis<edge, 2>(boxes, t));
+/// True where the cross product of a coordinate axis and one of the three edges separates: boxes that the
+/// triangle misses, seen along that axis.
+template <int k, typename F>
+inline auto separated_by_edges_along(const Boxes<F>& boxes, const CenteredTriangle<F>& t) noexcept {
+    return either(either(separated_by_edge_axis<0, k>(boxes, t), separated_by_edge_axis<1, k>(boxes, t)),
+                  separated_by_edge_axis<2, k>(boxes, t));
 }
 
 /// True where the triangle's plane misses the box (rule 3).
@@ -96,14 +103,35 @@ inline auto separated_by_plane(const Boxes<F>& boxes, const CenteredTriangle<F>&
     return either(near_distance > F{}, far_distance < F{});
 }
 
+/// True (or -1) where one of rules 1 and 3 separates: all that the box's own axes do not tell.
+template <typename F>
+inline auto separated_by_edges_or_plane(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
+    const CenteredTriangle<F> t = centered(boxes, vertices);
+    const auto by_edges =
+        either(either(separated_by_edges_along<0>(boxes, t), separated_by_edges_along<1>(boxes, t)),
+               separated_by_edges_along<2>(boxes, t));
+    return either(by_edges, separated_by_plane(boxes, t));
+}
+
 /// True (or -1) where the triangle does not touch the box: the separating-axis test of spec gi-bake
 /// section 4.1.
 template <typename F>
 inline auto separated(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
-    const CenteredTriangle<F> t = centered(boxes, vertices);
-    const auto by_edges = either(either(separated_by_edge<0>(boxes, t), separated_by_edge<1>(boxes, t)),
-                                 separated_by_edge<2>(boxes, t));
-    return either(separated_by_box_axis(boxes, vertices), either(by_edges, separated_by_plane(boxes, t)));
+    return either(separated_by_box_axis(boxes, vertices), separated_by_edges_or_plane(boxes, vertices));
+}
+
+/// True where all vertices lie in the box. No axis separates such a box from the triangle, which holds for
+/// the rounded numbers of separated(), too: each product and sum of a vertex's projection is at most that of
+/// the box's radius, before rounding and hence after it.
+template <typename F>
+inline auto lies_within(const Boxes<F>& boxes, const glm::vec3 (&vertices)[3]) noexcept {
+    const auto along = [&](int axis) {
+        const float v0 = vertices[0][axis], v1 = vertices[1][axis], v2 = vertices[2][axis];
+        const F lo = lesser(lesser(v0, v1), v2) - boxes.center[axis];
+        const F hi = greater(greater(v0, v1), v2) - boxes.center[axis];
+        return both(lo >= -boxes.half[axis], hi <= boxes.half[axis]);
+    };
+    return both(both(along(0), along(1)), along(2));
 }
 
 /// Bit i is set where box i of four touches the triangle.

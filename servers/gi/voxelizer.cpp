@@ -19,14 +19,15 @@ namespace cl::gi {
 
 namespace {
 
-/// Cells above this level are made here, one by one; below it each child is a brick, built on its own by any
+/// Cells up to this level are made here, one by one; each child below is a brick, built on its own by any
 /// worker. Fixed, so that the result does not know how many workers there were.
-constexpr int kBrickParentLevel = 2;
+constexpr int kBrickParentLevel = kBakeBrickLevel - 1;
 
 /// A cell above the bricks.
 struct TopCell {
     CellBox box;
-    std::vector<uint32_t> touching; ///< triangles, ascending; emptied once the children have theirs
+    uint32_t number;                ///< slots from the root, three bits a level
+    std::vector<uint32_t> touching; ///< broad triangles, ascending; emptied once the children have theirs
     std::vector<uint8_t> masks;     ///< octants that each of them touches
     int64_t children[8] = {-1, -1, -1, -1, -1, -1, -1, -1}; ///< top cells, or bricks below kBrickParentLevel
 };
@@ -58,18 +59,13 @@ public:
     }
 
     Expected<Octree> run() {
-        Expected<std::vector<PlotTriangle>> triangles =
-            collect_triangles(surfaces_, grid_.box, grid_.cell_size_m);
+        Expected<PlotTriangles> triangles = collect_triangles(surfaces_, grid_);
         if (!triangles) {
             return triangles.error();
         }
         triangles_ = std::move(*triangles);
         make_top();
-        parallel_for(bricks_.size(), 1, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                build_brick(bricks_[i]);
-            }
-        });
+        parallel_for_each(bricks_.size(), [&](size_t i) { build_brick(bricks_[i]); });
         if (cancelled_) {
             return Error{ErrorCode::Cancelled, "bake: cancelled"};
         }
@@ -80,7 +76,7 @@ private:
     // --- the top of the tree ---
 
     void make_top() {
-        TopCell root{root_cell(grid_), std::vector<uint32_t>(triangles_.size()), {}};
+        TopCell root{root_cell(grid_), 0, std::vector<uint32_t>(triangles_.broad.size()), {}};
         std::iota(root.touching.begin(), root.touching.end(), 0u);
         top_.push_back(std::move(root));
         for (size_t i = 0; i < top_.size(); ++i) {
@@ -95,13 +91,15 @@ private:
         cell.masks.resize(cell.touching.size());
         parallel_for(cell.touching.size(), kGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
-                cell.masks[i] = touched_octants(octants, triangles_[cell.touching[i]]);
+                const BroadTriangle& broad = triangles_.broad[cell.touching[i]];
+                cell.masks[i] =
+                    touched_octants(octants, triangles_.by_number[broad.triangle].v, broad.center_test);
             }
         });
     }
 
     void make_children(size_t parent) {
-        uint32_t any = 0;
+        uint32_t any = octants_with_small(top_[parent]);
         for (const uint8_t mask : top_[parent].masks) {
             any |= mask;
         }
@@ -114,14 +112,28 @@ private:
                 bricks_.push_back({parent, slot, {}, 0, 0.0f});
             } else {
                 top_[parent].children[slot] = int64_t(top_.size());
-                top_.push_back(
-                    {child_cell(grid_, top_[parent].box, slot), touching_octant(top_[parent], slot), {}});
+                top_.push_back({child_cell(grid_, top_[parent].box, slot),
+                                top_[parent].number * 8 + uint32_t(slot),
+                                touching_octant(top_[parent], slot),
+                                {}});
             }
         }
         if (top_[parent].box.level != kBrickParentLevel) {
             top_[parent].touching = {};
             top_[parent].masks = {};
         }
+    }
+
+    /// Bits of the children in which small triangles have leaves.
+    [[nodiscard]] uint32_t octants_with_small(const TopCell& cell) const {
+        const uint32_t bricks_of_child = kBakeBricks >> (3 * (cell.box.level + 1));
+        uint32_t octants = 0;
+        for (uint32_t i = 0; i < 8 * bricks_of_child; ++i) {
+            if (triangles_.small.touches_brick(cell.number * 8 * bricks_of_child + i)) {
+                octants |= 1u << (i / bricks_of_child);
+            }
+        }
+        return octants;
     }
 
     // --- bricks ---
@@ -132,8 +144,10 @@ private:
         }
         const TopCell& parent = top_[brick.parent];
         SubtreeBuilder builder(grid_, surfaces_, triangles_, control_);
-        brick.alpha =
-            builder.build(child_cell(grid_, parent.box, brick.slot), touching_octant(parent, brick.slot));
+        const uint32_t number = parent.number * 8 + uint32_t(brick.slot);
+        const std::vector<uint32_t> broad = touching_octant(parent, brick.slot);
+        const std::vector<LeafPlot> small = triangles_.small.sorted_by_leaf(number);
+        brick.alpha = builder.build(child_cell(grid_, parent.box, brick.slot), {broad, small, number});
         brick.leaf_count = builder.leaf_count();
         brick.cells = builder.take_cells();
         report_brick();
@@ -205,7 +219,7 @@ private:
     std::span<const PlotSurface> surfaces_;
     const BakeProgress& progress_;
     BakeControl control_;
-    std::vector<PlotTriangle> triangles_;
+    PlotTriangles triangles_;
     std::vector<TopCell> top_;
     std::vector<Brick> bricks_;
     std::mutex progress_mutex_;

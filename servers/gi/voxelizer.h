@@ -1,5 +1,6 @@
 #pragma once
 
+#include "servers/gi/captured_map.h"
 #include "servers/gi/probe_data.h"
 
 #include "core/image.h"
@@ -14,14 +15,11 @@
 
 namespace cl::gi {
 
-/// Edge of a captured material map [texels].
-inline constexpr int kCaptureSize = 128;
-
 /// A material as the bake sees it: albedo and emission, sRGB-encoded numbers used as they are
-/// (spec gi-bake section 3). One texel or kCaptureSize^2 texels each, row 0 first.
+/// (spec gi-bake section 3).
 struct MaterialCapture {
-    std::vector<glm::vec3> albedo;
-    std::vector<glm::vec3> emission;
+    CapturedMap albedo;
+    CapturedMap emission;
 };
 
 struct CaptureInput {

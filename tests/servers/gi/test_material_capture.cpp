@@ -22,6 +22,10 @@ Image plain_image(glm::ivec2 size, uint8_t r, uint8_t g, uint8_t b) {
     return image_of(size, bytes);
 }
 
+bool is_plain(const gi::CapturedMap& map, const glm::vec3& color) {
+    return map.size() == 1 && map[0] == color && map[77] == color;
+}
+
 TEST_SUITE("servers/gi/material_capture") {
     TEST_CASE("a material without textures is one texel of its numbers as they are") {
         gi::CaptureInput input;
@@ -29,10 +33,10 @@ TEST_SUITE("servers/gi/material_capture") {
         input.emission_color = {1.0f, 0.5f, 0.0f};
         input.emission_energy = 3.0f;
         const gi::MaterialCapture add = gi::capture_material(input);
-        CHECK(add.albedo == std::vector<glm::vec3>{{0.25f, 0.5f, 1.0f}});
-        CHECK(add.emission == std::vector<glm::vec3>{{3.0f, 1.5f, 0.0f}});
+        CHECK(is_plain(add.albedo, {0.25f, 0.5f, 1.0f}));
+        CHECK(is_plain(add.emission, {3.0f, 1.5f, 0.0f}));
         input.emission_multiply = true;
-        CHECK(gi::capture_material(input).emission == std::vector<glm::vec3>{glm::vec3(0.0f)});
+        CHECK(is_plain(gi::capture_material(input).emission, glm::vec3(0.0f)));
     }
 
     TEST_CASE("textures scale the albedo, and add to or multiply the emission") {
@@ -61,10 +65,10 @@ TEST_SUITE("servers/gi/material_capture") {
         input.albedo_texture = &none;
         input.emission_texture = &none;
         input.emission_color = glm::vec3(0.5f);
-        CHECK(gi::capture_material(input).albedo == std::vector<glm::vec3>{glm::vec3(0.0f)});
-        CHECK(gi::capture_material(input).emission == std::vector<glm::vec3>{glm::vec3(0.5f)});
+        CHECK(is_plain(gi::capture_material(input).albedo, glm::vec3(0.0f)));
+        CHECK(is_plain(gi::capture_material(input).emission, glm::vec3(0.5f)));
         input.emission_multiply = true;
-        CHECK(gi::capture_material(input).emission == std::vector<glm::vec3>{glm::vec3(0.0f)});
+        CHECK(is_plain(gi::capture_material(input).emission, glm::vec3(0.0f)));
     }
 
     TEST_CASE("resizing to the same size shifts content by half a texel, as Godot's filter does") {

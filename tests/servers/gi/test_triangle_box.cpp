@@ -57,6 +57,25 @@ TEST_SUITE("servers/gi/triangle_box") {
         CHECK(overlapping > 300);
     }
 
+    TEST_CASE(
+        "a triangle within a box touches it, also where its corners lie on the border to the last bit") {
+        RandomTriangles r;
+        int on_border = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const glm::vec3 center = r.point(10.0f), half = glm::abs(r.point(0.5f));
+            glm::vec3 v[3] = {center + r.point(0.5f), center + r.point(0.5f), center + r.point(0.5f)};
+            for (glm::vec3& corner : v) {
+                corner = glm::clamp(corner, center - half, center + half);
+            }
+            const gi::Boxes<float> box{{center.x, center.y, center.z}, {half.x, half.y, half.z}};
+            if (gi::lies_within(box, v)) { // rounding leaves some out
+                REQUIRE(gi::triangle_overlaps_box(center, half, v[0], v[1], v[2]));
+                on_border += v[0].x == center.x - half.x || v[0].x == center.x + half.x;
+            }
+        }
+        CHECK(on_border > 500);
+    }
+
     TEST_CASE("four boxes at once give what each gives alone, to the last bit") {
         RandomTriangles r;
         int touching = 0;
