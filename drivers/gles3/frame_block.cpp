@@ -189,6 +189,7 @@ shaders::FrameBlock make_frame_block(const Frame& frame,
         set_directional_shadow(out, shadows[i], world_from_view);
     }
     block.frame_light_passes = 1.0f;
+    block.frame_shadow_tap = shadow_tap_texels(frame.shadow_fit);
     if (frame.gi_mode == GIMode::Cones) {
         imitate_light_passes(block);
     }

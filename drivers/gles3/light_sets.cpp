@@ -16,20 +16,12 @@ namespace {
 constexpr uint16_t kSeparator = 0xFFFFu;
 constexpr size_t kMaxLocalLights = 8;
 
-/// How far look-ups step off a surface for each metre from the light.
-float shadow_step(const LightDesc& light, const PlacedLocalShadow& shadow) noexcept {
-    if (shadow.step_texels == 0.0f) {
-        return 0.0f;
-    }
-    const int slot = shadow.rect.size.x;
-    if (light.type == LightType::Spot) {
-        const float texel = 2.0f * std::tan(glm::radians(light.spot_angle_deg)) / static_cast<float>(slot);
-        return shadow.step_texels * texel;
-    }
-    // A paraboloid spreads 180 degrees over `slot` by `slot` / 2 texels, coarsest in its middle: 8 / slot
-    // [rad] each. Folding reads the nearest of a face's texels of 2 / face [rad].
-    const float texel = 8.0f / static_cast<float>(slot);
-    return shadow.step_texels * texel + 1.0f / static_cast<float>(omni_face_size(slot));
+/// Edge of a map's texel, a metre from the light [m]. A paraboloid spreads 180 degrees over `slot` by `slot`
+/// / 2 texels, coarsest in its middle.
+float texel_at_one_metre(const LightDesc& light, int slot) noexcept {
+    const float across =
+        light.type == LightType::Spot ? 2.0f * std::tan(glm::radians(light.spot_angle_deg)) : 8.0f;
+    return across / static_cast<float>(slot);
 }
 
 } // namespace
@@ -67,7 +59,10 @@ shaders::LocalLight make_local_light(const LightItem& light, const Transform& wo
     if (!shadow) {
         return out;
     }
-    out.shadow_step = shadow_step(desc, *shadow);
+    out.shadow_step = shadow->step_texels * texel_at_one_metre(desc, shadow->rect.size.x);
+    // Folding reads the nearest of a face's texels, which are 2 / its edge wide a metre away.
+    const bool is_folded = shadow->step_texels > 0.0f && desc.type == LightType::Omni;
+    out.shadow_face_step = is_folded ? 1.0f / static_cast<float>(omni_face_size(shadow->rect.size.x)) : 0.0f;
     out.shadow_rect =
         glm::vec4(shadow->rect.position, shadow->rect.size) / static_cast<float>(shadow->atlas_size);
     const glm::mat4 light_from_view = view_from_light.inverse().to_mat4();

@@ -4,6 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
+
 namespace cl::gles3 {
 
 /// What keeps surfaces from shading themselves where a texel of the shadow map, which holds one depth, covers
@@ -18,13 +20,20 @@ struct ShadowBias {
     friend bool operator==(const ShadowBias&, const ShadowBias&) = default;
 };
 
+/// Texels from tap to tap of a shadow filter. Half of Godot's where steps depend on it: edges move by as much
+/// as look-ups step off, and a point's shadow is sharp.
+[[nodiscard]] constexpr float shadow_tap_texels(ShadowFit fit) noexcept {
+    return fit == ShadowFit::AsSet ? 1.0f : 0.5f;
+}
+
 /// @param as_set_m  what ShadowFit::AsSet uses for casters
 [[nodiscard]] constexpr ShadowBias shadow_bias(const Frame& frame, glm::vec2 as_set_m) noexcept {
     if (frame.shadow_fit == ShadowFit::AsSet) {
         return {as_set_m, 0.0f};
     }
-    // The farthest that lib/shadow.glsl mixes in: its taps at 0, 1 or 2 texels, each filtered over 2 x 2.
-    return {glm::vec2(0.0f), frame.shadow_filter <= 0 ? 1.0f : (frame.shadow_filter == 1 ? 2.0f : 3.0f)};
+    // The farthest that lib/shadow.glsl mixes in: its taps 0, 1 or 2 steps away, each filtered over 2 x 2.
+    const float taps = static_cast<float>(std::clamp(frame.shadow_filter, 0, 2));
+    return {glm::vec2(0.0f), taps * shadow_tap_texels(frame.shadow_fit) + 1.0f};
 }
 
 } // namespace cl::gles3

@@ -34,6 +34,7 @@ layout(std140) uniform Frame {
     float frame_background_energy;
     float frame_sky_contribution; // part of the ambient light that comes from the sky
     int frame_directional_count;
+    float frame_shadow_tap;      // from tap to tap of a shadow filter [texels]
     float frame_light_passes;    // times that emission, and ambient light without GI, count
     int frame_cone_count;        // diffuse cones of a GI probe
     vec4 frame_cones[kMaxCones]; // xyz: direction in (tangent, binormal, normal), w: weight

@@ -94,7 +94,7 @@ float directional_split_shadow(Split split, vec3 p, vec3 step, bool wanted) {
     vec2 texel_m = texel / split.uv.xy;
     p += step * max(texel_m.x, texel_m.y);
     vec3 at = vec3(p.xy * split.uv.xy + split.uv.zw, p.z * split.depth.x + split.depth.y);
-    return shadow_lookup(directional_shadow, at, split.limits, texel, wanted);
+    return shadow_lookup(directional_shadow, at, split.limits, texel * frame_shadow_tap, wanted);
 }
 
 float directional_shadow_at(DirectionalLight light, Surface s, bool wanted) {
@@ -130,15 +130,20 @@ void add_directional_lights(Surface s, bool shadows_on, inout LightSum sum) {
 
 // --- omni and spot -----------------------------------------------------------------------------------------------
 
-float omni_shadow_at(LocalLight light, vec3 position, bool wanted) {
+float omni_shadow_at(LocalLight light, vec3 position, vec3 step, bool wanted) {
+    mat3 rotation = mat3(light.shadow_from_view);
     vec3 p = (light.shadow_from_view * vec4(position, 1.0)).xyz;
+    // A paraboloid's texels are half as wide at its rim as in its middle.
+    float texels = light.shadow_step * (0.5 + 0.5 * abs(p.z) / max(length(p), 1e-6));
+    p += rotation * step * (texels + light.shadow_face_step);
     float distance = length(p);
     vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
     float upper = p.z >= 0.0 ? 0.0 : 0.5;
     vec4 limits = vec4(light.shadow_rect.xy + vec2(0.0, upper) * light.shadow_rect.zw + 0.5 * texel,
                        light.shadow_rect.xy + vec2(1.0, upper + 0.5) * light.shadow_rect.zw - 0.5 * texel);
     vec2 uv = paraboloid_uv(p / distance) * light.shadow_rect.zw + light.shadow_rect.xy;
-    return shadow_lookup(shadow_atlas, vec3(uv, distance / light.range), limits, texel, wanted);
+    vec3 at = vec3(uv, distance / light.range);
+    return shadow_lookup(shadow_atlas, at, limits, texel * frame_shadow_tap, wanted);
 }
 
 void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
@@ -146,12 +151,13 @@ void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
         LocalLight light = set_omnis[i];
         vec3 to_light = light.position - s.position;
         float distance = length(to_light);
+        vec3 direction = to_light / max(distance, 1e-6);
         float attenuation = distance_attenuation(distance, light.range, light.attenuation);
-        bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, to_light);
-        vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
-        float lit = omni_shadow_at(light, off_surface, wanted);
+        bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, direction);
+        vec3 step = s.mesh_normal * distance;
+        float lit = omni_shadow_at(light, s.position, step, wanted);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
-        add_light(s, to_light / max(distance, 1e-6), color, light.specular, sum);
+        add_light(s, direction, color, light.specular, sum);
     }
 }
 
@@ -160,8 +166,8 @@ float spot_shadow_at(LocalLight light, vec3 position, bool wanted) {
     vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
     vec4 limits = vec4(light.shadow_rect.xy + 0.5 * texel, light.shadow_rect.xy + light.shadow_rect.zw - 0.5 * texel);
     vec3 at = p.xyz / p.w;
-    return shadow_lookup(shadow_atlas, vec3(at.xy * light.shadow_rect.zw + light.shadow_rect.xy, at.z), limits, texel,
-                         wanted);
+    vec2 uv = at.xy * light.shadow_rect.zw + light.shadow_rect.xy;
+    return shadow_lookup(shadow_atlas, vec3(uv, at.z), limits, texel * frame_shadow_tap, wanted);
 }
 
 void add_spot_lights(Surface s, bool shadows_on, inout LightSum sum) {
@@ -175,8 +181,8 @@ void add_spot_lights(Surface s, bool shadows_on, inout LightSum sum) {
         float attenuation = distance_attenuation(distance, light.range, light.attenuation) *
                             (1.0 - pow(rim, light.angle_attenuation));
         bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, to_light);
-        vec3 off_surface = s.position + s.mesh_normal * (light.shadow_step * distance);
-        float lit = spot_shadow_at(light, off_surface, wanted);
+        float step = light.shadow_step * distance;
+        float lit = spot_shadow_at(light, s.position + s.mesh_normal * step, wanted);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, to_light, color, light.specular, sum);
     }
