@@ -232,7 +232,7 @@ struct GIProbeShading {
     glm::vec3 field_cells{0.0f};      ///< size of the box [cells of the field]
     glm::ivec3 field_bricks{0};       ///< of 4 x 4 x 4 cells
     int field_first_brick = 0;        ///< where this probe's begin
-    int field_air_z = 0;              ///< where its slabs of air begin [texels]
+    glm::ivec3 field_air_at{0};       ///< where its slabs of air begin [texels]
     float field_range = 1.0f;         ///< radiance of the volume's texels of 1
 };
 

@@ -97,7 +97,7 @@ shaders::GIProbe make_gi_probe(const GIProbeShading& probe, const Transform& wor
         out.multiplier = probe.multiplier;
         out.field_bricks = probe.field_bricks;
         out.field_first_brick = probe.field_first_brick;
-        out.field_air_z = probe.field_air_z;
+        out.field_air_at = probe.field_air_at;
         out.field_range = probe.field_range;
         out.uv_from_cells = 1.0f / glm::vec3(glm::max(probe.size, glm::ivec3(1)));
         out.reach = probe.volume ? std::min(glm::length(probe.field_cells), kMaxReach) : 0.0f;

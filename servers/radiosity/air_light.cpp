@@ -80,9 +80,9 @@ std::vector<uint16_t> encode_air(std::span<const AirPoints> air, const FieldMap&
         const glm::ivec3 dims = map.probes[p].bricks;
         const auto texel_of = [&](int n, int slab) {
             const int x = n % dims.x, y = n / dims.x % dims.y, z = n / (dims.x * dims.y);
-            const int at_z = map.probes[p].air_z + slab * dims.z + z;
+            const glm::ivec3 at = map.probes[p].air_at + glm::ivec3(x, y, slab * dims.z + z);
             return out.data() +
-                   4 * ((size_t(at_z) * size_t(map.air.y) + size_t(y)) * size_t(map.air.x) + size_t(x));
+                   4 * ((size_t(at.z) * size_t(map.air.y) + size_t(at.y)) * size_t(map.air.x) + size_t(at.x));
         };
         constexpr size_t kGrain = 1024;
         parallel_for(light[p].size(), kGrain, [&](size_t begin, size_t end) {

@@ -16,6 +16,8 @@
 namespace cl::radiosity {
 namespace {
 
+constexpr int kMostAirTexels = 2048; // along an edge: what drivers allow a 3D texture
+
 // Facings overlap, so that a pixel whose normal differs a little from its patch's still finds it.
 constexpr float kMostAway = 0.35f; ///< a sixth of a right angle past the border between two facings
 constexpr float kOwnFacing = 0.1f;
@@ -169,11 +171,17 @@ void append_facing(const Transport& t, size_t probe, int facing, FieldMap& map) 
 
 FieldMap make_field_map(const Transport& transport) {
     FieldMap map;
-    map.air = glm::ivec3(1, 1, 0);
+    map.air = glm::ivec3(1);
+    glm::ivec3 air_at(0);
     for (size_t probe = 0; probe < transport.probe_count; ++probe) {
         const glm::ivec3 bricks = transport.patches.grids[probe].cells.bricks();
-        map.probes.push_back({bricks, uint32_t(map.brick_words.size() / 4), map.air.z});
-        map.air = glm::ivec3(glm::max(glm::ivec2(map.air), glm::ivec2(bricks)), map.air.z + 4 * bricks.z);
+        const glm::ivec3 slabs = bricks * glm::ivec3(1, 1, 4);
+        if (air_at.z + slabs.z > kMostAirTexels) {
+            air_at = {map.air.x, 0, 0}; // beside all before
+        }
+        map.probes.push_back({bricks, uint32_t(map.brick_words.size() / 4), air_at});
+        map.air = glm::max(map.air, air_at + slabs);
+        air_at.z += slabs.z;
         for (int facing = 0; facing < FieldMap::kFacings; ++facing) {
             append_facing(transport, probe, facing, map);
         }

@@ -20,10 +20,11 @@ struct FieldMap {
     struct Probe {
         glm::ivec3 bricks{0};     ///< of one facing
         uint32_t first_brick = 0; ///< its bricks: x fastest, then y, then z, then facing
-        int air_z = 0;            ///< its slabs of air
+        glm::ivec3 air_at{0};     ///< where its four slabs of air begin, one behind the other
     };
     std::vector<Probe> probes;
-    glm::ivec3 air{0}; ///< texels of air: the probes' slabs one behind the other, as wide as the widest
+    /// Texels of air: columns along z of the probes' slabs, at most 2048 long, side by side along x.
+    glm::ivec3 air{0};
 
     /// CellIndex::Brick as four words each. `first` counts cells of all facings and probes.
     std::vector<uint32_t> brick_words;

@@ -37,8 +37,7 @@ bool covers(const AABB& outer, const AABB& inner) noexcept {
 }
 
 /// Cells along a grid's longest axis. Surface, and with it patches, grows with their square: many probes
-/// share what kFullGrids of them would have, or 64 probes would take minutes. The slabs of air of 64 then
-/// just fit the 2048 texels that a texture may have along z.
+/// share what kFullGrids of them would have, or 64 probes would take minutes.
 int cells_of_grid(int wanted, size_t probe_count) noexcept {
     constexpr float kFullGrids = 4.0f;
     constexpr int kLeastCells = 16;

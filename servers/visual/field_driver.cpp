@@ -275,7 +275,7 @@ void FieldDriver::describe(RID rid, const Instance& instance, GIProbeShading& sh
             shading.field_cells = glm::vec3(cells.dims);
             shading.field_bricks = field.parts.map->probes[i].bricks;
             shading.field_first_brick = int(field.parts.map->probes[i].first_brick);
-            shading.field_air_z = field.parts.map->probes[i].air_z;
+            shading.field_air_at = field.parts.map->probes[i].air_at;
             if (i < field.ranges.size()) {
                 shading.volume = field.volumes[i];
                 shading.size = radiosity::radiance_volume_size(cells);

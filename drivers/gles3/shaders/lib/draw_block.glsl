@@ -12,7 +12,7 @@ struct GIProbe {
     int blend_ambient;     // ambient light enters where cones leave
     ivec3 field_bricks;    // of a GI field: lib/gi_field.glsl
     int field_first_brick;
-    int field_air_z;
+    ivec3 field_air_at;    // texel where its slabs of air begin
     float field_range;     // radiance of a texel of 1
 };
 

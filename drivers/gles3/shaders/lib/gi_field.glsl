@@ -94,7 +94,7 @@ vec3 air_slab(GIProbe probe, vec3 at, int slab) {
     vec3 size = vec3(textureSize(field_air, 0));
     vec3 dims = vec3(probe.field_bricks);
     vec3 texel = clamp(at * 0.25, vec3(0.5), dims - 0.5); // no filtering across the border of a slab
-    texel.z += float(probe.field_air_z) + float(slab) * dims.z;
+    texel += vec3(probe.field_air_at) + vec3(0.0, 0.0, float(slab) * dims.z);
     return textureLod(field_air, texel / size, 0.0).rgb;
 }
 
@@ -109,7 +109,7 @@ vec3 air_light(GIProbe probe, vec3 at, vec3 normal) {
     for (int i = 0; i < 8; ++i) {
         ivec3 step = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 point = clamp(ivec3(corner) + step, ivec3(0), last);
-        ivec3 texel = point + ivec3(0, 0, probe.field_air_z);
+        ivec3 texel = point + probe.field_air_at;
         vec4 mean = texelFetch(field_air, texel, 0);
         vec4 x = texelFetch(field_air, texel + ivec3(0, 0, probe.field_bricks.z), 0);
         vec4 y = texelFetch(field_air, texel + ivec3(0, 0, 2 * probe.field_bricks.z), 0);
