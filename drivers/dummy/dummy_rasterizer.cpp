@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <functional>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -183,9 +184,11 @@ Status DummyRasterizer::gi_field_upload(RID rid, std::span<const uint32_t> light
     if (!fields_.get(rid)) {
         return stale("GI field");
     }
-    std::vector<uint8_t> bytes(light.size_bytes() + air.size_bytes());
-    std::memcpy(bytes.data(), light.data(), light.size_bytes());
-    std::memcpy(bytes.data() + light.size_bytes(), air.data(), air.size_bytes());
+    std::vector<uint8_t> bytes;
+    for (const std::span<const std::byte> part : {std::as_bytes(light), std::as_bytes(air)}) {
+        std::transform(part.begin(), part.end(), std::back_inserter(bytes),
+                       [](std::byte b) { return uint8_t(b); });
+    }
     record(CallKind::FieldUpload, rid, {static_cast<int>(light.size()), 1, 1}, 0, bytes);
     return {};
 }
