@@ -108,20 +108,23 @@ AABB casters_seen(const LightItem& light, const Transform& light_from_world) noe
 
 /// Where a split spans more than the casters do, it spans the casters. That does not depend on the camera, so
 /// edges do not crawl; what is beyond reads the empty margin and is lit.
-void shrink_to(DirectionalSplit& split, const AABB& casters, float texels) noexcept {
+/// @return true if it spans them all now
+bool shrink_to(DirectionalSplit& split, const AABB& casters, float texels) noexcept {
     constexpr float kMargin = 4.0f; // the filter's reach and one more [texels]
     const float widening = texels / std::max(texels - 2.0f * kMargin, 1.0f);
-    split.spans_casters = true;
+    bool spans_all = true;
     for (int axis = 0; axis < 2; ++axis) {
         const float span_m = split.high_m[axis] - split.low_m[axis];
         const float needed_m = std::max(casters.size[axis] * widening, span_m / texels);
-        split.spans_casters = split.spans_casters && needed_m <= span_m;
-        if (needed_m <= span_m) {
+        if (needed_m > span_m) {
+            spans_all = false;
+        } else {
             const float center_m = casters.position[axis] + 0.5f * casters.size[axis];
             split.low_m[axis] = center_m - 0.5f * needed_m;
             split.high_m[axis] = center_m + 0.5f * needed_m;
         }
     }
+    return spans_all;
 }
 
 /// The first `count` splits, the last of them up to `end_m`.
@@ -131,16 +134,15 @@ SplitRange shortened(SplitRange range, int count, float end_m) noexcept {
     return range;
 }
 
-/// Everything but where the shadow fades.
-DirectionalShadow fit_splits(const LightItem& item, const Frame& frame, glm::ivec2 area_texels,
-                             const SplitRange& range) noexcept {
-    const LightDesc& light = *item.desc;
-    DirectionalShadow out;
-    out.light_from_world = {glm::transpose(item.world_from_light.basis), glm::vec3(0.0f)};
+/// Fits all splits but where the shadow fades.
+/// @param out      its light_from_world is set
+/// @param casters  bounds in light space
+/// @return the first split that spans all casters, where splits are to be tight; else -1
+int fit_splits(DirectionalShadow& out, const LightDesc& light, const Frame& frame, glm::ivec2 area_texels,
+               const SplitRange& range, const AABB& casters) noexcept {
     out.count = range.count;
-    const bool is_tight = frame.shadow_fit == ShadowFit::ByTexel && !item.casters.empty();
-    const AABB casters = is_tight ? casters_seen(item, out.light_from_world)
-                                  : transformed(out.light_from_world, frame.casters_bounds);
+    int first_spanning = -1;
+    const bool is_tight = frame.shadow_fit == ShadowFit::ByTexel;
     const Transform light_from_view = out.light_from_world * frame.camera.world_from_camera;
     const float widening = is_tight ? 1.0f : godots_widening(frame.camera, frame.size);
     float first_radius = 1.0f;
@@ -161,8 +163,8 @@ DirectionalShadow fit_splits(const LightItem& item, const Frame& frame, glm::ive
         } else {
             fit_optimized(split, corners, texels);
         }
-        if (is_tight) {
-            shrink_to(split, casters, texels);
+        if (is_tight && shrink_to(split, casters, texels) && first_spanning < 0) {
+            first_spanning = i;
         }
         split.high_m.z = std::max(split.high_m.z, casters.end().z) + 0.001f;
         first_radius = i == 0 ? sphere.radius : first_radius;
@@ -170,7 +172,7 @@ DirectionalShadow fit_splits(const LightItem& item, const Frame& frame, glm::ive
         split.bias =
             shadow_bias(frame, glm::vec2(light.shadow_bias_m, light.directional_normal_bias) * scale);
     }
-    return out;
+    return first_spanning;
 }
 
 } // namespace
@@ -207,19 +209,23 @@ std::array<glm::vec3, 8> view_corners(const CameraDesc& camera, glm::ivec2 frame
 
 DirectionalShadow fit_directional_shadow(const LightItem& light, const Frame& frame,
                                          glm::ivec2 area_texels) noexcept {
+    DirectionalShadow out;
+    out.light_from_world = {glm::transpose(light.world_from_light.basis), glm::vec3(0.0f)};
+    const bool by_caster = frame.shadow_fit == ShadowFit::ByTexel && !light.casters.empty();
+    const AABB casters = by_caster ? casters_seen(light, out.light_from_world)
+                                   : transformed(out.light_from_world, frame.casters_bounds);
     const SplitRange range = split_range(*light.desc, frame.camera);
-    DirectionalShadow out = fit_splits(light, frame, area_texels, range);
+    const float end_m = range.at_m[static_cast<size_t>(range.count)];
     const bool fades = range.count > 1;
-    out.fade_begin_m = range.at_m[static_cast<size_t>(range.count) - (fades ? 1 : 0)] * (fades ? 1.0f : 2.0f);
-    out.fade_end_m = range.at_m[static_cast<size_t>(range.count)] * (fades ? 1.0f : 3.0f);
-    for (int i = 0; i < out.count; ++i) {
-        if (out.splits[static_cast<size_t>(i)].spans_casters) {
-            // It serves as far as can be seen; those after it would only make it coarser.
-            const float end_m = std::max(frame.camera.far_m, range.at_m[static_cast<size_t>(range.count)]);
-            out = fit_splits(light, frame, area_texels, shortened(range, i + 1, end_m));
-            out.fade_begin_m = end_m * 2.0f;
-            out.fade_end_m = end_m * 3.0f;
-        }
+    out.fade_begin_m = fades ? range.at_m[static_cast<size_t>(range.count) - 1] : end_m * 2.0f;
+    out.fade_end_m = fades ? end_m : end_m * 3.0f;
+    const int spanning = fit_splits(out, *light.desc, frame, area_texels, range, casters);
+    if (spanning >= 0) {
+        // It serves as far as can be seen; those after it would only make it coarser.
+        const float far_m = std::max(frame.camera.far_m, end_m);
+        fit_splits(out, *light.desc, frame, area_texels, shortened(range, spanning + 1, far_m), casters);
+        out.fade_begin_m = far_m * 2.0f;
+        out.fade_end_m = far_m * 3.0f;
     }
     return out;
 }

@@ -23,7 +23,6 @@ struct DirectionalSplit {
         high_m{0.0f}; ///< box in light space: x, y as the map spans them, z = depths 1 and 0
     glm::vec2 tile{0.0f}, tile_size{1.0f}; ///< its part of the light's area, 0..1
     ShadowBias bias;
-    bool spans_casters = false; ///< ShadowFit::ByTexel: no caster is outside of it
     friend bool operator==(const DirectionalSplit&, const DirectionalSplit&) = default;
 };
 

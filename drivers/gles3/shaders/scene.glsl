@@ -165,7 +165,7 @@ void main() {
     vec3 reflected = environment_brdf(fresnel, s.roughness, nv);
     vec3 specular = environment * reflected;
 #ifdef GI_FIELD
-    ambient *= 1.0 - reflected; // no light twice
+    ambient *= max(1.0 - reflected, 0.0); // no light twice; the fit exceeds 1 at grazing angles
 #endif
 #endif
 
