@@ -42,6 +42,7 @@ struct InputState {
     glm::vec2 mouse_motion_px{0.0f}; ///< since the last poll; +x right, +y down
     float scroll = 0.0f;             ///< since the last poll [notches], + is away from the user
     bool resized = false;            ///< the framebuffer's size changed since the last poll
+    bool uncovered = false;          ///< what was shown is lost, and has to be drawn again
     bool close_requested = false;    ///< stays true once set
 
     [[nodiscard]] bool is_down(Key key) const { return down[static_cast<size_t>(key)]; }
@@ -58,8 +59,9 @@ enum class MouseMode : uint8_t {
 class Window {
 public:
     virtual ~Window() = default;
-    /// Handles pending events; never waits. The state lives until the next poll().
-    virtual const InputState& poll() = 0;
+    /// Handles pending events. The state lives until the next poll().
+    /// @param longest_wait_s  if there are none, sleeps until one comes, but no longer than this
+    virtual const InputState& poll(double longest_wait_s = 0.0) = 0;
     virtual void set_mouse_mode(MouseMode mode) = 0;
     virtual void set_title(std::string_view title) = 0;
 };

@@ -11,8 +11,13 @@ VisualServer::VisualServer(std::unique_ptr<Rasterizer> rasterizer)
 
 VisualServer::~VisualServer() = default;
 
+VisualServer::Impl& VisualServer::edit() {
+    impl_->edited = true;
+    return *impl_;
+}
+
 void VisualServer::set_settings(const RenderSettings& settings) {
-    impl_->settings = settings;
+    edit().settings = settings;
     impl_->fields.set_quality(settings.quality);
 }
 const RenderSettings& VisualServer::settings() const {
@@ -64,6 +69,8 @@ Status VisualServer::draw() {
     bool to_window = false;
     impl_->instances.update();
     impl_->frame_stats = {};
+    impl_->edited = false;
+    impl_->drawn_uploads = impl_->gi_uploads();
     impl_->viewports.for_each([&](RID, Viewport& viewport) {
         errors.note(impl_->draw_viewport(viewport));
         to_window = to_window || viewport.to_window;
@@ -97,6 +104,10 @@ bool VisualServer::is_settled() {
     return impl_->gi_is_settled();
 }
 
+bool VisualServer::has_changed() {
+    return impl_->edited || impl_->drawn_uploads != impl_->gi_uploads() || !is_settled();
+}
+
 ServerStats VisualServer::stats() const {
     ServerStats stats;
     stats.frame = impl_->frame_stats;
@@ -114,7 +125,7 @@ ServerStats VisualServer::stats() const {
 }
 
 Status VisualServer::free(RID rid) {
-    Impl& impl = *impl_;
+    Impl& impl = edit();
     Storage& storage = impl.storage;
     if (storage.textures.free(rid)) {
         storage.materials.forget_resolved();

@@ -127,6 +127,9 @@ public:
     /// One frame: instances, viewports, then one step of each probe's state machine, as Godot orders it
     /// (spec gi-update section 2). @return the first error of the rasteriser.
     Status draw();
+    /// False if draw() would show what it showed last, in every viewport: a window may sleep. After a window
+    /// was uncovered it has to be drawn all the same.
+    [[nodiscard]] bool has_changed();
     /// Steps the probes until none has anything to do: what is drawn next is settled. While it waits for the
     /// first light of all, it has the shaders compiled of viewports that were not drawn yet.
     void settle();
@@ -142,6 +145,7 @@ public:
 
 private:
     struct Impl;
+    [[nodiscard]] Impl& edit(); ///< by which all calls go that may change a picture
     std::unique_ptr<Impl> impl_;
     // Owns nothing, and is the last member: weak() is empty before anything else is torn down.
     std::shared_ptr<VisualServer> self_{this, [](VisualServer*) {}};

@@ -24,10 +24,10 @@ RID VisualServer::texture_create(Image image, const TextureParams& params) {
 
 RID VisualServer::texture_create(std::shared_ptr<const Image> image, const TextureParams& params) {
     if (!image || !is_whole(*image)) {
-        static_cast<void>(impl_->stale.refuse("texture_create: expected an image with all its pixels"));
+        static_cast<void>(edit().stale.refuse("texture_create: expected an image with all its pixels"));
         return {};
     }
-    return impl_->storage.textures.make(std::move(image), params);
+    return edit().storage.textures.make(std::move(image), params);
 }
 
 Expected<glm::ivec2> VisualServer::texture_size(RID texture) const {
@@ -38,22 +38,22 @@ Expected<glm::ivec2> VisualServer::texture_size(RID texture) const {
 }
 
 RID VisualServer::material_create(const MaterialDesc& desc) {
-    const RID material = impl_->storage.materials.make({});
+    const RID material = edit().storage.materials.make({});
     static_cast<void>(
         material_set(material, desc)); // said in the log; the material stays as it is by default
     return material;
 }
 
 Status VisualServer::material_set(RID material, const MaterialDesc& desc) {
-    if (!impl_->storage.materials.owns(material)) {
-        return impl_->stale.refuse("material_set", "a material", material);
+    if (!edit().storage.materials.owns(material)) {
+        return edit().stale.refuse("material_set", "a material", material);
     }
     FirstError errors;
     for_each_texture(desc, [this, &errors](RID texture, TextureColorSpace) {
-        errors.note(impl_->check_or_null("material_set", "a texture", texture, impl_->storage.textures));
+        errors.note(edit().check_or_null("material_set", "a texture", texture, edit().storage.textures));
     });
     if (errors.status().ok()) {
-        impl_->storage.materials.set(material, desc);
+        edit().storage.materials.set(material, desc);
     }
     return errors.status();
 }
@@ -64,66 +64,66 @@ Expected<RID> VisualServer::mesh_create(std::vector<MeshSurface> surfaces) {
             return valid.error();
         }
     }
-    return impl_->storage.meshes.make(std::move(surfaces));
+    return edit().storage.meshes.make(std::move(surfaces));
 }
 
 Status VisualServer::mesh_surface_set_material(RID mesh, int surface, RID material) {
-    const Mesh* found = impl_->storage.meshes.get(mesh);
+    const Mesh* found = edit().storage.meshes.get(mesh);
     if (!found) {
-        return impl_->stale.refuse("mesh_surface_set_material", "a mesh", mesh);
+        return edit().stale.refuse("mesh_surface_set_material", "a mesh", mesh);
     }
     if (surface < 0 || static_cast<size_t>(surface) >= found->surfaces.size()) {
-        return impl_->stale.refuse(
+        return edit().stale.refuse(
             fmt::format("mesh_surface_set_material: expected a surface below {}, found {}",
                         found->surfaces.size(), surface));
     }
-    if (Status live = impl_->check_or_null("mesh_surface_set_material", "a material", material,
-                                           impl_->storage.materials);
+    if (Status live = edit().check_or_null("mesh_surface_set_material", "a material", material,
+                                           edit().storage.materials);
         !live) {
         return live;
     }
-    impl_->storage.meshes.set_material(mesh, surface, material);
+    edit().storage.meshes.set_material(mesh, surface, material);
     return {};
 }
 
 RID VisualServer::light_create(const LightDesc& desc) {
-    const RID light = impl_->storage.lights.make({});
+    const RID light = edit().storage.lights.make({});
     static_cast<void>(light_set(light, desc)); // said in the log; the light stays as it is by default
     return light;
 }
 
 Status VisualServer::light_set(RID rid, const LightDesc& desc) {
-    Light* light = impl_->storage.lights.get(rid);
+    Light* light = edit().storage.lights.get(rid);
     if (!light) {
-        return impl_->stale.refuse("light_set", "a light", rid);
+        return edit().stale.refuse("light_set", "a light", rid);
     }
     if (!is_finite(desc)) {
-        return impl_->stale.refuse(
+        return edit().stale.refuse(
             "light_set: expected finite colour, energies, range, attenuations and angle");
     }
     if (light->desc == desc) {
         return {};
     }
     light->desc = desc;
-    light->version = impl_->storage.clock.tick();
-    impl_->instances.base_changed(rid);
+    light->version = edit().storage.clock.tick();
+    edit().instances.base_changed(rid);
     return {};
 }
 
 RID VisualServer::sky_create(SkyDesc desc) {
-    return impl_->storage.skies.make(std::move(desc));
+    return edit().storage.skies.make(std::move(desc));
 }
 
 RID VisualServer::environment_create(const EnvironmentDesc& desc) {
-    return impl_->storage.environments.make(desc);
+    return edit().storage.environments.make(desc);
 }
 
 Status VisualServer::environment_set(RID rid, const EnvironmentDesc& desc) {
-    EnvironmentDesc* environment = impl_->storage.environments.get(rid);
+    EnvironmentDesc* environment = edit().storage.environments.get(rid);
     if (!environment) {
-        return impl_->stale.refuse("environment_set", "an environment", rid);
+        return edit().stale.refuse("environment_set", "an environment", rid);
     }
-    if (Status live = impl_->check_or_null("environment_set", "a sky", desc.sky, impl_->storage.skies);
+    if (Status live = edit().check_or_null("environment_set", "a sky", desc.sky, edit().storage.skies);
         !live) {
         return live;
     }
@@ -132,21 +132,21 @@ Status VisualServer::environment_set(RID rid, const EnvironmentDesc& desc) {
 }
 
 RID VisualServer::camera_create(const CameraDesc& desc) {
-    const RID camera = impl_->storage.cameras.make({});
+    const RID camera = edit().storage.cameras.make({});
     static_cast<void>(camera_set(camera, desc)); // said in the log; the camera stays as it is by default
     return camera;
 }
 
 Status VisualServer::camera_set(RID rid, const CameraDesc& desc) {
-    CameraDesc* camera = impl_->storage.cameras.get(rid);
+    CameraDesc* camera = edit().storage.cameras.get(rid);
     if (!camera) {
-        return impl_->stale.refuse("camera_set", "a camera", rid);
+        return edit().stale.refuse("camera_set", "a camera", rid);
     }
     if (!is_finite(desc.world_from_camera)) {
-        return impl_->stale.refuse("camera_set: expected a transform of finite numbers");
+        return edit().stale.refuse("camera_set: expected a transform of finite numbers");
     }
-    if (Status live = impl_->check_or_null("camera_set", "an environment", desc.environment,
-                                           impl_->storage.environments);
+    if (Status live = edit().check_or_null("camera_set", "an environment", desc.environment,
+                                           edit().storage.environments);
         !live) {
         return live;
     }

@@ -10,6 +10,7 @@
 
 #include "core/threads.h"
 
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -49,6 +50,8 @@ struct VisualServer::Impl {
     [[nodiscard]] bool lights_by_gi() const;
     Status step_gi(FieldDriver::Rest rest);
     [[nodiscard]] bool gi_is_settled();
+    /// Grows whenever new light is there to be drawn.
+    [[nodiscard]] uint64_t gi_uploads() const { return probes.uploads() + fields.uploads(); }
     void compile_shaders_meanwhile();
     Status ensure_target(Viewport& viewport);
     Status draw_viewport(Viewport& viewport);
@@ -64,6 +67,8 @@ struct VisualServer::Impl {
     RID_Owner<Viewport> viewports{static_cast<uint32_t>(RIDKind::Viewport)};
     RenderSettings settings;
     FrameStats frame_stats;
+    bool edited = true;         ///< since the last draw()
+    uint64_t drawn_uploads = 0; ///< gi_uploads() that the last draw() began with
 };
 
 } // namespace cl

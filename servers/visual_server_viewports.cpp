@@ -8,36 +8,36 @@ RID VisualServer::viewport_create(glm::ivec2 size, bool to_window) {
     Viewport viewport;
     viewport.size = size;
     viewport.to_window = to_window;
-    return impl_->viewports.make(viewport);
+    return edit().viewports.make(viewport);
 }
 
 Status VisualServer::viewport_set_size(RID rid, glm::ivec2 size) {
-    Viewport* viewport = impl_->viewports.get(rid);
+    Viewport* viewport = edit().viewports.get(rid);
     if (!viewport) {
-        return impl_->stale.refuse("viewport_set_size", "a viewport", rid);
+        return edit().stale.refuse("viewport_set_size", "a viewport", rid);
     }
     viewport->size = size;
     return {};
 }
 
 Status VisualServer::viewport_set_scenario(RID rid, RID scenario) {
-    Viewport* viewport = impl_->viewports.get(rid);
+    Viewport* viewport = edit().viewports.get(rid);
     if (!viewport) {
-        return impl_->stale.refuse("viewport_set_scenario", "a viewport", rid);
+        return edit().stale.refuse("viewport_set_scenario", "a viewport", rid);
     }
-    if (scenario && !impl_->instances.scenario(scenario)) {
-        return impl_->stale.refuse("viewport_set_scenario", "a scenario", scenario);
+    if (scenario && !edit().instances.scenario(scenario)) {
+        return edit().stale.refuse("viewport_set_scenario", "a scenario", scenario);
     }
     viewport->scenario = scenario;
     return {};
 }
 
 Status VisualServer::viewport_set_camera(RID rid, RID camera) {
-    Viewport* viewport = impl_->viewports.get(rid);
+    Viewport* viewport = edit().viewports.get(rid);
     if (!viewport) {
-        return impl_->stale.refuse("viewport_set_camera", "a viewport", rid);
+        return edit().stale.refuse("viewport_set_camera", "a viewport", rid);
     }
-    if (Status live = impl_->check_or_null("viewport_set_camera", "a camera", camera, impl_->storage.cameras);
+    if (Status live = edit().check_or_null("viewport_set_camera", "a camera", camera, edit().storage.cameras);
         !live) {
         return live;
     }

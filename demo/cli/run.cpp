@@ -19,7 +19,8 @@ namespace cl::demo {
 
 namespace {
 
-constexpr double kMaxStep_s = 0.1; // after a stall the camera must not jump through the scene
+constexpr double kIdleWait_s = 1.0 / 144.0; // so that what moves after a while starts in time
+constexpr double kMaxStep_s = 0.1;          // after a stall the camera must not jump through the scene
 
 /// Puts the time of a frame in the title twice a second.
 class FrameTimeTitle {
@@ -42,7 +43,8 @@ private:
     int frames_ = 0;
 };
 
-/// Frames until Esc, the window's close button or --frames.
+/// Frames until Esc, the window's close button or --frames. Where nothing changes, nothing is drawn and the
+/// machine sleeps; with --frames, which is for measuring, all are.
 Status run_frames(Stage& stage, const Options& options, std::vector<double>& times_ms) {
     drivers::Window& window = *stage.window();
     scene::Camera& camera = *stage.tree().world().current_camera();
@@ -51,14 +53,15 @@ Status run_frames(Stage& stage, const Options& options, std::vector<double>& tim
     stage.tree().step(0.0);
     stage.server().settle(); // the first frame is not dark
     Stopwatch frame;
+    bool idle = false;
     for (int64_t n = 0; !options.frames || n < *options.frames; ++n) {
-        const drivers::InputState& input = window.poll();
+        const drivers::InputState& input = window.poll(idle ? kIdleWait_s : 0.0);
         if (input.close_requested || input.was_pressed(drivers::Key::Escape)) {
             break;
         }
         const double frame_ms = frame.elapsed_ms();
         frame = Stopwatch();
-        if (n > 0) {
+        if (n > 0 && !idle) {
             times_ms.push_back(frame_ms);
             title.frame(window, frame_ms);
         }
@@ -71,6 +74,10 @@ Status run_frames(Stage& stage, const Options& options, std::vector<double>& tim
             stage.tree().world().set_viewport_size(size);
         }
         stage.tree().step(delta_s);
+        idle = !options.frames && !input.uncovered && !stage.tree().has_changed();
+        if (idle) {
+            continue;
+        }
         if (Status drawn = stage.tree().draw(); !drawn) {
             return drawn;
         }

@@ -43,7 +43,9 @@ public:
     void swap() override { glfwSwapBuffers(window_); }
     [[nodiscard]] drivers::Window* window() noexcept override { return this; }
 
-    const drivers::InputState& poll() override { return input_.poll(window_); }
+    const drivers::InputState& poll(double longest_wait_s) override {
+        return input_.poll(window_, longest_wait_s);
+    }
     void set_mouse_mode(drivers::MouseMode mode) override {
         const bool captured = mode == drivers::MouseMode::Captured;
         glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);

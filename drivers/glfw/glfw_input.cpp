@@ -51,6 +51,7 @@ void InputGatherer::attach(GLFWwindow* window) {
     glfwSetScrollCallback(
         window, [](GLFWwindow* w, double, double y) { of(w).state_.scroll += static_cast<float>(y); });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).state_.resized = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).state_.uncovered = true; });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
         // GLFW counts left, right, middle, as MouseButton does.
         if (button >= 0 && button < 3) {
@@ -78,12 +79,17 @@ void InputGatherer::on_cursor(glm::vec2 position_px) {
     last_cursor_ = position_px;
 }
 
-const drivers::InputState& InputGatherer::poll(GLFWwindow* window) {
+const drivers::InputState& InputGatherer::poll(GLFWwindow* window, double longest_wait_s) {
     state_.pressed.reset();
     state_.mouse_motion_px = glm::vec2(0.0f);
     state_.scroll = 0.0f;
     state_.resized = false;
-    glfwPollEvents();
+    state_.uncovered = false;
+    if (longest_wait_s > 0.0) {
+        glfwWaitEventsTimeout(longest_wait_s);
+    } else {
+        glfwPollEvents();
+    }
     state_.close_requested = glfwWindowShouldClose(window) == GLFW_TRUE;
     return state_;
 }

@@ -16,8 +16,8 @@ class InputGatherer {
 public:
     /// Installs the callbacks; uses the window's user pointer.
     void attach(GLFWwindow* window);
-    /// Handles events and gives what came since the last call.
-    const drivers::InputState& poll(GLFWwindow* window);
+    /// Handles events and gives what came since the last call; if nothing did, after a wait for it.
+    const drivers::InputState& poll(GLFWwindow* window, double longest_wait_s);
     /// The next cursor position starts a new motion: it may lie far from the last one.
     void restart_motion() noexcept { last_cursor_.reset(); }
 

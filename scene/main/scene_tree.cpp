@@ -116,6 +116,14 @@ Status SceneTree::draw() {
     return server_->draw();
 }
 
+bool SceneTree::has_changed() {
+    if (!server_) {
+        return false;
+    }
+    world_->flush_transforms();
+    return server_->has_changed();
+}
+
 Status SceneTree::draw_settled() {
     if (server_) {
         world_->flush_transforms();

@@ -66,6 +66,8 @@ public:
 
     /// Tells the renderer what changed and draws one frame. Unsupported if the tree has no server.
     Status draw();
+    /// False if draw() would show what it showed last (VisualServer::has_changed()).
+    [[nodiscard]] bool has_changed();
     /// The same, but first lets every GI probe take in the light as it is now: what is drawn does not depend
     /// on the frames before.
     Status draw_settled();

@@ -166,6 +166,7 @@ Status ProbeMachine::upload(Rasterizer& rasterizer) {
         cells_->texels = {};
     }
     total_upload_ms_ += ms_since(start);
+    ++uploads_;
     return status;
 }
 

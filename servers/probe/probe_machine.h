@@ -57,6 +57,7 @@ public:
     /// Time of the relights that have ended: work on the cells, and upload. Never reset.
     [[nodiscard]] double total_work_ms() const noexcept { return total_work_ms_; }
     [[nodiscard]] double total_upload_ms() const noexcept { return total_upload_ms_; }
+    [[nodiscard]] uint64_t uploads() const noexcept { return uploads_; } ///< so far
 
 private:
     [[nodiscard]] LightChanges changes(const ProbeWanted& wanted) const;
@@ -81,6 +82,7 @@ private:
     uint64_t unusable_version_ = 0; ///< data that no volume could be made for
     Applied applied_;
     int shown_dynamic_range_ = 0;
+    uint64_t uploads_ = 0;
     double total_work_ms_ = 0.0, total_upload_ms_ = 0.0;
 };
 

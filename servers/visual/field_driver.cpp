@@ -167,6 +167,7 @@ void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lightin
 
 Status FieldDriver::take_in(Field& field) {
     const std::shared_ptr<FieldJob> job = std::exchange(field.job, nullptr);
+    ++uploads_;
     const Stopwatch uploading;
     FirstError errors;
     if (!job->error.empty()) {

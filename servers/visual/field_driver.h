@@ -43,7 +43,8 @@ public:
     /// Fills the parts of a probe's shading that tell where its light is found.
     void describe(RID probe_instance, const Instance& instance, GIProbeShading& shading) const;
 
-    [[nodiscard]] double bake_ms() const noexcept { return bake_ms_; } ///< last transport made
+    [[nodiscard]] uint64_t uploads() const noexcept { return uploads_; } ///< of light, so far
+    [[nodiscard]] double bake_ms() const noexcept { return bake_ms_; }   ///< last transport made
     [[nodiscard]] double relight_ms() const noexcept {
         return relight_ms_;
     } ///< last solution, upload included
@@ -84,7 +85,7 @@ private:
     WorkerQueue& worker_;
     std::unordered_map<RID, Field> fields_; ///< by scenario
     std::unordered_map<RID, Restless> seen_;
-    uint64_t step_ = 0;
+    uint64_t step_ = 0, uploads_ = 0;
     Quality quality_ = Quality::High;
     double bake_ms_ = 0.0, relight_ms_ = 0.0, upload_ms_ = 0.0;
 };

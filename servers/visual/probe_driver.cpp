@@ -21,10 +21,12 @@ Status ProbeDriver::step() {
     for (RID rid : instances_.probes()) {
         const Instance& instance = *instances_.get(rid);
         ProbeMachine& machine = *instance.probe;
+        const uint64_t uploads_known = machine.uploads();
         const double work_before = machine.total_work_ms(), uploads_before = machine.total_upload_ms();
         errors.note(machine.step(wanted(instance), rasterizer_, run_));
         const double uploaded = machine.total_upload_ms() - uploads_before;
         total_upload_ms_ += uploaded;
+        uploads_ += machine.uploads() - uploads_known;
         total_relight_ms_ += machine.total_work_ms() - work_before + uploaded;
     }
     if (was_at_rest && any_in_flight()) {

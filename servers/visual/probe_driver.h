@@ -26,6 +26,7 @@ public:
     /// rest. Work on the cells and upload, summed over the probes.
     [[nodiscard]] double relight_ms() const noexcept { return total_relight_ms_ - round_start_relight_ms_; }
     [[nodiscard]] double upload_ms() const noexcept { return total_upload_ms_ - round_start_upload_ms_; }
+    [[nodiscard]] uint64_t uploads() const noexcept { return uploads_; } ///< of light, so far
 
 private:
     [[nodiscard]] ProbeWanted wanted(const Instance& instance);
@@ -38,6 +39,7 @@ private:
     Rasterizer& rasterizer_;
     RunJob run_;
     std::vector<ProbeLight> lights_; ///< of the probe being looked at; kept for its memory
+    uint64_t uploads_ = 0;
     double total_relight_ms_ = 0.0, total_upload_ms_ = 0.0;
     double round_start_relight_ms_ = 0.0, round_start_upload_ms_ = 0.0;
 };

@@ -124,6 +124,62 @@ TEST_SUITE("servers/visual_server") {
         CHECK(!f.server.texture_create(torn));
     }
 
+    TEST_CASE("every call that may change a picture says so until the next frame; others do not") {
+        ServerFixture f;
+        VisualServer& s = f.server;
+        const RID mesh = f.mesh(), box = f.place(mesh), material = s.material_create();
+        const RID light = s.light_create({}), environment = s.environment_create();
+        const RID probe = s.gi_probe_create();
+        const std::function<void()> edits[] = {
+            [&] { s.texture_create(small_image()); },
+            [&] { CHECK(s.material_set(material, {})); },
+            [&] { f.mesh(); },
+            [&] { CHECK(s.mesh_surface_set_material(mesh, 0, material)); },
+            [&] { CHECK(s.light_set(light, {})); },
+            [&] { s.sky_create({}); },
+            [&] { CHECK(s.environment_set(environment, {})); },
+            [&] { CHECK(s.camera_set(f.camera, {})); },
+            [&] { CHECK(s.gi_probe_set_data(probe, {})); },
+            [&] { CHECK(s.gi_probe_set_energy(probe, 2.0f)); },
+            [&] { CHECK(s.gi_probe_set_bias(probe, 2.0f)); },
+            [&] { CHECK(s.gi_probe_set_normal_bias(probe, 2.0f)); },
+            [&] { CHECK(s.gi_probe_set_propagation(probe, 0.5f)); },
+            [&] { CHECK(s.gi_probe_set_interior(probe, true)); },
+            [&] { CHECK(s.gi_probe_set_dynamic_range(probe, 2)); },
+            [&] { CHECK(s.scenario_set_environment(f.scenario, environment)); },
+            [&] { s.instance_create(mesh, f.scenario); },
+            [&] { CHECK(s.instance_set_base(box, light)); },
+            [&] { CHECK(s.instance_set_base(box, mesh)); },
+            [&] { CHECK(s.instance_set_scenario(box, f.scenario)); },
+            [&] { CHECK(s.instance_set_transform(box, at(1, 0, 0))); },
+            [&] { CHECK(s.instance_set_visible(box, true)); },
+            [&] { CHECK(s.instance_set_layers(box, 3)); },
+            [&] { CHECK(s.instance_set_surface_material(box, 0, material)); },
+            [&] { CHECK(s.instance_set_material_override(box, material)); },
+            [&] { CHECK(s.instance_set_casting(box, ShadowCasting::Off)); },
+            [&] { CHECK(s.instance_set_use_in_baked_light(box, true)); },
+            [&] { CHECK(s.instance_set_extra_margin(box, 1.0f)); },
+            [&] {
+                CHECK(s.viewport_set_size(f.viewport, {32, 32}));
+            },
+            [&] { CHECK(s.viewport_set_camera(f.viewport, f.camera)); },
+            [&] { CHECK(s.viewport_set_scenario(f.viewport, f.scenario)); },
+            [&] { s.set_settings(s.settings()); },
+            [&] { CHECK(s.free(material)); },
+        };
+        CHECK(s.has_changed()); // nothing was drawn yet
+        for (size_t i = 0; i < std::size(edits); ++i) {
+            CAPTURE(i);
+            f.draw();
+            static_cast<void>(s.stats());
+            static_cast<void>(s.settings());
+            static_cast<void>(s.viewport_read(f.viewport, TargetFormat::Srgb8));
+            CHECK(!s.has_changed());
+            edits[i]();
+            CHECK(s.has_changed());
+        }
+    }
+
     TEST_CASE("meshes, textures and skies reach the rasteriser when first drawn, once") {
         ServerFixture f;
         const RID texture = f.server.texture_create(small_image());

@@ -4,6 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
+
 using namespace cl;
 using dummy::CallKind;
 using tests::at;
@@ -115,6 +118,26 @@ TEST_SUITE("servers/visual/field_driver") {
         f.server.settle();
         CHECK(dark != lit);
         CHECK(f.light_hash() == lit);
+    }
+
+    TEST_CASE("drawing while something has changed ends with all light drawn and all things at rest") {
+        FieldFixture f;
+        const auto draw_changes = [&f] {
+            f.dummy->forget_calls();
+            while (f.server.has_changed()) {
+                f.draw();
+                std::this_thread::sleep_for(std::chrono::milliseconds(1)); // lets the worker work
+            }
+            CHECK(f.server.is_settled());
+            CHECK(f.dummy->count(CallKind::FieldUpload) > 0);
+            CHECK(f.dummy->calls().back().kind == CallKind::Draw);
+        };
+        draw_changes();
+        REQUIRE(f.server.instance_set_visible(f.lamp, false));
+        draw_changes();
+        REQUIRE(f.server.instance_set_transform(f.box, at(0.1f, 0, 0)));
+        draw_changes();
+        CHECK(f.draw().opaque.at(0).is_still);
     }
 
     TEST_CASE("what moves leaves the field until it rests") {

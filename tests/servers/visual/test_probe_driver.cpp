@@ -213,6 +213,21 @@ TEST_SUITE("servers/visual/probe_driver") {
         CHECK(f.dummy->count(CallKind::VolumeUpload) == 0);
     }
 
+    TEST_CASE("drawing while something has changed ends with all light drawn") {
+        ProbeFixture f;
+        for (float x : {0.0f, 3.0f}) {
+            f.place_light(lamp(), at(x, 0.0f, 0.0f));
+            f.dummy->forget_calls();
+            while (f.server.has_changed()) {
+                f.draw();
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            CHECK(f.server.is_settled());
+            CHECK(f.dummy->count(CallKind::VolumeUpload) > 0);
+            CHECK(f.dummy->calls().back().kind == CallKind::Draw);
+        }
+    }
+
     TEST_CASE("a volume is never seen half new: between two draws its bytes are the old or the new ones") {
         ProbeFixture f;
         const RID light = f.server.light_create(lamp());
