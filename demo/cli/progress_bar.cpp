@@ -1,5 +1,7 @@
 #include "demo/cli/progress_bar.h"
 
+#include "demo/cli/time_left.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <unistd.h>
@@ -32,7 +34,10 @@ void ProgressBar::show(float share) {
     }
     last_percent_ = percent;
     const std::string bar(static_cast<size_t>(percent * kWidth / 100), '#');
-    std::fprintf(stderr, "\r%s [%-*s] %3d %%", title_.c_str(), kWidth, bar.c_str(), percent);
+    // What stood there may have been longer: erased to the line's end.
+    const std::string left = time_left(share, since_.elapsed_ms() * 1e-3);
+    std::fprintf(stderr, "\r%s [%-*s] %3d %%  %s\x1b[K", title_.c_str(), kWidth, bar.c_str(), percent,
+                 left.c_str());
 }
 
 } // namespace cl::demo

@@ -2,12 +2,14 @@
 
 #include "demo/cli/options.h"
 
+#include "core/stopwatch.h"
+
 #include <string>
 
 namespace cl::demo {
 
-/// One line on a terminal's stderr that shows the share done; nothing when stderr is no terminal or quiet is
-/// asked.
+/// One line on a terminal's stderr that shows the share done and the time left; nothing when stderr is no
+/// terminal or quiet is asked.
 class ProgressBar {
 public:
     ProgressBar(std::string title, Verbosity verbosity);
@@ -22,6 +24,7 @@ private:
     std::string title_;
     bool visible_ = false;
     int last_percent_ = -1;
+    Stopwatch since_;
 };
 
 } // namespace cl::demo
