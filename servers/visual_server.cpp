@@ -57,7 +57,7 @@ void VisualServer::Impl::compile_shaders_meanwhile() {
         return;
     }
     viewports.for_each([this](RID, Viewport& viewport) {
-        if (!viewport.drawn && !viewport.to_window) {
+        if (!viewport.drawn) {
             static_cast<void>(draw_viewport(viewport)); // what is wrong with it, draw() will tell
             viewport.drawn = false;
         }
