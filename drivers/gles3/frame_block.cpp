@@ -150,6 +150,7 @@ FrameFeatures frame_features(const Frame& frame, bool has_sky) noexcept {
         f.omni = f.omni || light.desc->type == LightType::Omni;
         f.spot = f.spot || light.desc->type == LightType::Spot;
     }
+    f.omni_faces = f.omni && frame.shadow_fit == ShadowFit::ByTexel;
     f.shadow_filter = frame.shadow_filter;
     if (frame.gi_mode != GIMode::Off) {
         f.gi_probes = std::max(most_probes(frame.opaque), most_probes(frame.transparent));

@@ -14,9 +14,10 @@ struct FrameFeatures {
     bool sky = false; ///< ambient light and reflections from a sky
     bool fog = false;
     bool directional = false, omni = false, spot = false;
-    int gi_probes = 0;     ///< most that reach one surface: 0 to 2
-    bool gi_field = false; ///< their light is a GI field
-    int shadow_filter = 1; ///< of Frame
+    bool omni_faces = false; ///< how omnis' shadow maps were drawn
+    int gi_probes = 0;       ///< most that reach one surface: 0 to 2
+    bool gi_field = false;   ///< their light is a GI field
+    int shadow_filter = 1;   ///< of Frame
 };
 /// GI probes that reach a surface: 0 to 2.
 [[nodiscard]] int probe_count(const DrawItem& item) noexcept;

@@ -1,6 +1,7 @@
 #include "drivers/gles3/light_sets.h"
 
 #include "drivers/gles3/frame_block.h"
+#include "drivers/gles3/omni_faces.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -16,21 +17,19 @@ namespace {
 constexpr uint16_t kSeparator = 0xFFFFu;
 constexpr size_t kMaxLocalLights = 8;
 
-/// Edge of a map's texel, a metre from the light [m]. A paraboloid spreads 180 degrees over `slot` by `slot`
-/// / 2 texels, coarsest in its middle.
-float texel_at_one_metre(const LightDesc& light, int slot) noexcept {
-    const float across =
-        light.type == LightType::Spot ? 2.0f * std::tan(glm::radians(light.spot_angle_deg)) : 8.0f;
-    return across / static_cast<float>(slot);
+/// What look-ups in an omni's map need of its place.
+void place_omni(shaders::LocalLight& out, const PlacedLocalShadow& shadow) noexcept {
+    if (shadow.fit == ShadowFit::AsSet) {
+        return; // two paraboloids fill the slot
+    }
+    const OmniFaces faces(shadow.rect);
+    out.shadow_rect = faces.uv_tiles(shadow.atlas_size);
+    out.shadow_near = omni_face_near_m(out.range);
+    // Across a row or a column, that is: the farthest texel is one aside, too.
+    out.shadow_step = std::hypot(shadow.step_texels, 1.0f) * faces.texel_at_one_metre();
 }
 
 } // namespace
-
-int omni_face_size(int slot_size) noexcept {
-    constexpr int kLeast = 16;
-    constexpr int kMost = 512;
-    return std::clamp(slot_size / 2, kLeast, kMost);
-}
 
 glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept {
     CameraDesc camera;
@@ -59,17 +58,16 @@ shaders::LocalLight make_local_light(const LightItem& light, const Transform& wo
     if (!shadow) {
         return out;
     }
-    out.shadow_step = shadow->step_texels * texel_at_one_metre(desc, shadow->rect.size.x);
-    // Folding reads the nearest of a face's texels, which are 2 / its edge wide a metre away.
-    const bool is_folded = shadow->step_texels > 0.0f && desc.type == LightType::Omni;
-    out.shadow_face_step = is_folded ? 1.0f / static_cast<float>(omni_face_size(shadow->rect.size.x)) : 0.0f;
     out.shadow_rect =
         glm::vec4(shadow->rect.position, shadow->rect.size) / static_cast<float>(shadow->atlas_size);
     const glm::mat4 light_from_view = view_from_light.inverse().to_mat4();
     if (desc.type == LightType::Omni) {
         out.shadow_from_view = light_from_view;
+        place_omni(out, *shadow);
         return out;
     }
+    const float edge_at_one_metre = 2.0f * std::tan(glm::radians(desc.spot_angle_deg));
+    out.shadow_step = shadow->step_texels * (edge_at_one_metre / static_cast<float>(shadow->rect.size.x));
     glm::mat4 unit_from_clip(0.5f);
     unit_from_clip[3] = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
     out.shadow_from_view = unit_from_clip * spot_clip_from_light(desc) * light_from_view;

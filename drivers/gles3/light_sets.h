@@ -19,10 +19,8 @@ struct PlacedLocalShadow {
     gl::Rect rect;
     int atlas_size = 1;       ///< [texels]
     float step_texels = 0.0f; ///< of ShadowBias
+    ShadowFit fit = ShadowFit::AsSet;
 };
-
-/// Edge of the cube faces that are folded into an omni's map [texels].
-[[nodiscard]] int omni_face_size(int slot_size) noexcept;
 
 /// View volume of a spot's shadow map: clip from light space (spec scene-classes section 9). 90 degrees and
 /// more cast no shadow.

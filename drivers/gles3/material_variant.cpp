@@ -73,7 +73,7 @@ uint32_t map_bits(const MaterialDesc& m, uint32_t format) noexcept {
 /// cheaper than a second set of variants.
 uint32_t frame_bits(const FrameFeatures& f) noexcept {
     const uint32_t lights = (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
-                            (f.spot ? Scene::kSpot : 0u);
+                            (f.omni_faces ? Scene::kOmniFaces : 0u) | (f.spot ? Scene::kSpot : 0u);
     const uint32_t filter = f.shadow_filter <= 0 ? Scene::kPcf1 : (f.shadow_filter >= 2 ? Scene::kPcf13 : 0u);
     const uint32_t gi = f.gi_probes == 0 ? 0u
                                          : (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo) |

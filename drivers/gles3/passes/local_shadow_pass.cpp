@@ -1,9 +1,8 @@
 #include "drivers/gles3/passes/local_shadow_pass.h"
 
 #include "drivers/gles3/gl/state.h"
+#include "drivers/gles3/omni_faces.h"
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -23,31 +22,10 @@ bool casts_local_shadow(const LightItem& light) noexcept {
            (d.type == LightType::Omni || (d.type == LightType::Spot && d.spot_angle_deg < 90.0f));
 }
 
-/// View matrix of a cube's face, as GL lays cube maps out.
-glm::mat4 face_from_light(gl::CubeFace face) noexcept {
-    static const glm::vec3 kForward[6] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    static const glm::vec3 kUp[6] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
-    const auto i = static_cast<size_t>(face);
-    return glm::lookAt(glm::vec3(0.0f), kForward[i], kUp[i]);
-}
-
 /// Longest edge of the box that a light reaches.
 float reach_m(const LightItem& light) noexcept {
     const glm::vec3 size = transformed(light.world_from_light, light_bounds(*light.desc)).size;
     return std::max(size.x, std::max(size.y, size.z));
-}
-
-Transform transform_from(const glm::mat4& m) noexcept {
-    return {glm::mat3(m), glm::vec3(m[3])};
-}
-
-glm::mat4 face_clip_from_light(float range_m) noexcept {
-    CameraDesc camera;
-    camera.fov_deg = 90.0f;
-    camera.near_m = kLocalShadowNear;
-    camera.far_m = range_m;
-    return projection_matrix(camera, glm::ivec2(1));
 }
 
 } // namespace
@@ -92,29 +70,6 @@ Status LocalShadowPass::prepare_atlas(int size) {
     return {};
 }
 
-Expected<const LocalShadowPass::Cube*> LocalShadowPass::cube_of(int size) {
-    if (const auto found = cubes_.find(size); found != cubes_.end()) {
-        return static_cast<const Cube*>(&found->second);
-    }
-    Expected<gl::TextureCube> texture = gl::TextureCube::create({.size = size,
-                                                                 .format = gl::Format::Depth24,
-                                                                 .sampler = {.filter = gl::Filter::Nearest},
-                                                                 .label = "omni shadow faces"});
-    if (!texture) {
-        return texture.error();
-    }
-    Cube cube{*std::move(texture), {}};
-    for (int face = 0; face < 6; ++face) {
-        Expected<gl::Framebuffer> f =
-            gl::Framebuffer::create({.depth = {&cube.texture, 0, face}, .label = "omni shadow face"});
-        if (!f) {
-            return f.error();
-        }
-        cube.faces.push_back(*std::move(f));
-    }
-    return static_cast<const Cube*>(&cubes_.emplace(size, std::move(cube)).first->second);
-}
-
 Status LocalShadowPass::draw_spot(const LightItem& light, const Drawn& now, const Resources& resources,
                                   CasterDraw& casters) {
     gl::Pass pass({.label = "spot shadow",
@@ -126,41 +81,35 @@ Status LocalShadowPass::draw_spot(const LightItem& light, const Drawn& now, cons
     return casters.draw(pass, light, view, resources);
 }
 
-Status LocalShadowPass::draw_face(const LightItem& light, const gl::Framebuffer& target, gl::CubeFace face,
-                                  const Resources& resources, CasterDraw& casters) {
-    gl::Pass pass({.label = "omni shadow face", .target = &target, .depth = gl::Load::Clear});
-    // The bias is added to the distance when the faces are folded.
-    const CasterView view{transform_from(face_from_light(face)) * light.world_from_light.inverse(),
-                          face_clip_from_light(light.desc->range_m),
-                          {0.0f, 0.0f}};
-    return casters.draw(pass, light, view, resources);
-}
-
-Status LocalShadowPass::draw_omni(const LightItem& light, const Drawn& now, const Resources& resources,
-                                  CasterDraw& casters) {
-    using S = shaders::OmniParaboloid;
-    const Expected<const Cube*> cube = cube_of(omni_face_size(now.rect.size.x));
-    if (!cube) {
-        return cube.error();
-    }
-    for (size_t face = 0; face < 6; ++face) {
-        const gl::Framebuffer& target = (*cube)->faces[face];
-        if (Status s = draw_face(light, target, static_cast<gl::CubeFace>(face), resources, casters); !s) {
+Status LocalShadowPass::draw_faces(const LightItem& light, const Drawn& now, const Resources& resources,
+                                   CasterDraw& casters) {
+    const OmniFaces faces(now.rect);
+    gl::Pass pass({.label = "omni shadow",
+                   .target = &atlas_->framebuffer,
+                   .viewport = faces.rect(),
+                   .depth = gl::Load::Clear});
+    const Transform light_from_world = light.world_from_light.inverse();
+    const glm::mat4 clip_from_face = faces.clip_from_face(omni_face_near_m(light.desc->range_m));
+    for (int face = 0; face < 6; ++face) {
+        pass.set_viewport(faces.rect(face));
+        const CasterView view{OmniFaces::face_from_light(face) * light_from_world, clip_from_face,
+                              now.bias.caster_m};
+        if (Status s = casters.draw(pass, light, view, resources); !s) {
             return s;
         }
     }
-    const auto program = paraboloid_.get(0);
-    if (!program) {
-        return program.error();
-    }
-    (*program)->set(S::near_far, glm::vec2(kLocalShadowNear, light.desc->range_m));
-    (*program)->set(S::bias, now.bias.caster_m.x);
-    (*program)->set(S::range, light.desc->range_m);
-    (*program)->bind(S::faces, (*cube)->texture);
-    gl::Pass pass({.label = "omni shadow", .target = &atlas_->framebuffer, .viewport = now.rect});
-    constexpr gl::DrawState kDepthOnly{gl::DepthTest::Always, gl::WriteMask::Depth, gl::Cull::Off};
-    pass.draw_fullscreen(**program, resources.no_vertices, kDepthOnly);
     return {};
+}
+
+Status LocalShadowPass::draw_light(const LightItem& light, const Drawn& now, const Resources& resources,
+                                   CasterDraw& casters) {
+    if (now.type == LightType::Spot) {
+        return draw_spot(light, now, resources, casters);
+    }
+    if (now.fit == ShadowFit::ByTexel) {
+        return draw_faces(light, now, resources, casters);
+    }
+    return paraboloids_.draw(atlas_->framebuffer, now.rect, light, now.bias.caster_m.x, resources, casters);
 }
 
 Expected<std::vector<std::optional<PlacedLocalShadow>>>
@@ -200,17 +149,16 @@ LocalShadowPass::draw(const Frame& frame, const Resources& resources, CasterDraw
                         d.range_m,
                         d.spot_angle_deg,
                         d.shadow_reverse_cull_face,
-                        d.type};
+                        d.type,
+                        frame.shadow_fit};
         const auto before = drawn_.find(light.key);
         if (before == drawn_.end() || !(before->second == now)) {
-            Status s = d.type == LightType::Omni ? draw_omni(light, now, resources, casters)
-                                                 : draw_spot(light, now, resources, casters);
-            if (!s) {
+            if (Status s = draw_light(light, now, resources, casters); !s) {
                 return s.error();
             }
         }
         drawn.emplace(light.key, now);
-        placed[owners[i]] = {*slots[i], atlas_->slots.size(), bias.step_texels};
+        placed[owners[i]] = {*slots[i], atlas_->slots.size(), bias.step_texels, frame.shadow_fit};
     }
     drawn_ = std::move(drawn); // what was not asked for has lost its slot
     return placed;

@@ -4,10 +4,10 @@
 #include "drivers/gles3/gl/texture.h"
 #include "drivers/gles3/light_sets.h"
 #include "drivers/gles3/passes/caster_draw.h"
+#include "drivers/gles3/passes/omni_paraboloids.h"
 #include "drivers/gles3/shadow_atlas.h"
 #include "drivers/gles3/shadow_bias.h"
 
-#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -15,8 +15,7 @@
 namespace cl::gles3 {
 
 /// The shadow maps of omni and spot lights, in one atlas. A map is kept while its light, its casters and its
-/// place stay as they are (spec scene-classes section 9). An omni's six faces are drawn to a cube and folded
-/// into two paraboloids.
+/// place stay as they are (spec scene-classes section 9).
 class LocalShadowPass {
 public:
     /// Brings the maps of the frame's lights up to date.
@@ -32,10 +31,6 @@ private:
         gl::Framebuffer framebuffer;
         ShadowAtlas slots;
     };
-    struct Cube {
-        gl::TextureCube texture;
-        std::vector<gl::Framebuffer> faces; ///< in the order of gl::CubeFace
-    };
     /// All that a map's texels depend on.
     struct Drawn {
         gl::Rect rect;
@@ -45,21 +40,20 @@ private:
         float range_m = 0.0f, spot_angle_deg = 0.0f;
         bool reverse_cull = false;
         LightType type = LightType::Omni;
+        ShadowFit fit = ShadowFit::AsSet;
         friend bool operator==(const Drawn&, const Drawn&) = default;
     };
     Status prepare_atlas(int size);
-    Expected<const Cube*> cube_of(int size);
     Status draw_spot(const LightItem& light, const Drawn& now, const Resources& resources,
                      CasterDraw& casters);
-    Status draw_omni(const LightItem& light, const Drawn& now, const Resources& resources,
-                     CasterDraw& casters);
-    Status draw_face(const LightItem& light, const gl::Framebuffer& target, gl::CubeFace face,
-                     const Resources& resources, CasterDraw& casters);
+    Status draw_faces(const LightItem& light, const Drawn& now, const Resources& resources,
+                      CasterDraw& casters);
+    Status draw_light(const LightItem& light, const Drawn& now, const Resources& resources,
+                      CasterDraw& casters);
 
     std::optional<Atlas> atlas_;
-    std::map<int, Cube> cubes_; ///< by edge [texels]
     std::map<RID, Drawn> drawn_;
-    gl::ShaderVariants<shaders::OmniParaboloid> paraboloid_;
+    OmniParaboloids paraboloids_;
 };
 
 /// How large a light's reach looks: its radius over the mean of the picture's half width and half height

@@ -1,14 +1,14 @@
 // scene.glsl -- forward shading of one surface: all its lights, ambient light or GI, emission, fog
 // output   linear radiance [W m^-2 sr^-1], straight alpha; before exposure and tone mapping
 // source   spec gi-shading section 7 (composition), scene-classes sections 8 and 14.3
-#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR GI_GLOSS SKY FOG DIRECTIONAL OMNI SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
+#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR GI_GLOSS SKY FOG DIRECTIONAL OMNI OMNI_FACES SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
 #pragma validate
 #pragma validate UNSHADED ALBEDO_MAP ALPHA_SCISSOR
 #pragma validate ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR GI_TWO SKY FOG DIRECTIONAL OMNI SPOT
 #pragma validate GI_ONE DIRECTIONAL OMNI SPOT DIFFUSE_LAMBERT SPECULAR_DISABLED
-#pragma validate GI_TWO GI_FIELD SKY OMNI
+#pragma validate GI_TWO GI_FIELD SKY OMNI OMNI_FACES
 #pragma validate GI_ONE GI_FIELD GI_AIR DIRECTIONAL
-#pragma validate GI_TWO GI_FIELD GI_GLOSS ALBEDO_MAP NORMAL_MAP MORE_MAPS SKY DIRECTIONAL OMNI SPOT
+#pragma validate GI_TWO GI_FIELD GI_GLOSS ALBEDO_MAP NORMAL_MAP MORE_MAPS SKY DIRECTIONAL OMNI OMNI_FACES SPOT
 #pragma validate SKY OMNI PCF1 DIFFUSE_WRAP SPECULAR_BLINN
 #pragma validate FOG SPOT PCF13 DIFFUSE_OREN_NAYAR SPECULAR_PHONG
 #pragma validate DIRECTIONAL DIFFUSE_TOON SPECULAR_TOON
@@ -63,6 +63,7 @@ uniform sampler3D gi_volume_2;
 #include "lib/environment_brdf.glsl"
 #include "lib/shadow.glsl"
 #include "lib/paraboloid.glsl"
+#include "lib/omni_faces.glsl"
 #include "lib/lights.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gi_probe.glsl"

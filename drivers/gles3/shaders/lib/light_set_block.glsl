@@ -14,9 +14,9 @@ struct LocalLight {
     float cos_angle; // spots: of the half angle
     float angle_attenuation; // spots: exponent
     int has_shadow;
-    float shadow_step; // off the surface before a look-up [m for each m from the light]; omnis: of their map's middle
-    float shadow_face_step; // omnis: what comes on top for the faces that were folded
-    vec4 shadow_rect; // its place in the atlas: xy + uv * zw
+    float shadow_step; // off the surface before a look-up [m for each m from the light]
+    float shadow_near; // OMNI_FACES: of the faces' projection [m]
+    vec4 shadow_rect; // its place in the atlas: xy + uv * zw; OMNI_FACES: see omni_face_at
     mat4 shadow_from_view; // spots: to (u, v, depth) * w; omnis: to the light's own axes [m]
 };
 

@@ -1,8 +1,9 @@
 // shaders/lib/lights.glsl -- direct light of all lights of an instance at one point; library, no main()
 // space    view space [m]; colours linear
 // needs    lib/frame_block.glsl, lib/draw_block.glsl, lib/light_set_block.glsl, lib/brdf.glsl, lib/shadow.glsl,
-//          lib/paraboloid.glsl; samplers shadow_atlas, directional_shadow
-// variants DIFFUSE_*, SPECULAR_* choose the reflection; none = Burley, GGX
+//          lib/paraboloid.glsl, lib/omni_faces.glsl; samplers shadow_atlas, directional_shadow
+// variants DIFFUSE_*, SPECULAR_* choose the reflection; none = Burley, GGX. OMNI_FACES: omnis' maps are six faces, as
+//          ShadowFit::ByTexel draws them; none = two paraboloids
 // source   spec scene-classes sections 8 and 9. Departs: every directional light in one pass; what Godot's further
 //          passes add besides is frame_light_passes
 struct Surface {
@@ -130,12 +131,19 @@ void add_directional_lights(Surface s, bool shadows_on, inout LightSum sum) {
 
 // --- omni and spot -----------------------------------------------------------------------------------------------
 
-float omni_shadow_at(LocalLight light, vec3 position, vec3 step, bool wanted) {
-    mat3 rotation = mat3(light.shadow_from_view);
-    vec3 p = (light.shadow_from_view * vec4(position, 1.0)).xyz;
-    // A paraboloid's texels are half as wide at its rim as in its middle.
-    float texels = light.shadow_step * (0.5 + 0.5 * abs(p.z) / max(length(p), 1e-6));
-    p += rotation * step * (texels + light.shadow_face_step);
+#ifdef OMNI_FACES
+float omni_shadow_at(LocalLight light, Surface s, bool wanted) {
+    vec3 p = (light.shadow_from_view * vec4(s.position, 1.0)).xyz;
+    // Texels of a face are as wide at its rim as in its middle, where the distance is counted along its axis.
+    p += mat3(light.shadow_from_view) * s.mesh_normal * (light.shadow_step * omni_face_depth(p));
+    vec3 at = omni_face_at(p, light.shadow_rect, light.shadow_near);
+    vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
+    const vec4 kNoLimits = vec4(0.0, 0.0, 1.0, 1.0); // the faces' margins hold all taps
+    return shadow_lookup(shadow_atlas, at, kNoLimits, texel * frame_shadow_tap, wanted);
+}
+#else
+float omni_shadow_at(LocalLight light, Surface s, bool wanted) {
+    vec3 p = (light.shadow_from_view * vec4(s.position, 1.0)).xyz;
     float distance = length(p);
     vec2 texel = 1.0 / vec2(textureSize(shadow_atlas, 0));
     float upper = p.z >= 0.0 ? 0.0 : 0.5;
@@ -145,6 +153,7 @@ float omni_shadow_at(LocalLight light, vec3 position, vec3 step, bool wanted) {
     vec3 at = vec3(uv, distance / light.range);
     return shadow_lookup(shadow_atlas, at, limits, texel * frame_shadow_tap, wanted);
 }
+#endif
 
 void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
     for (int i = 0; i < set_omni_count; ++i) {
@@ -154,8 +163,7 @@ void add_omni_lights(Surface s, bool shadows_on, inout LightSum sum) {
         vec3 direction = to_light / max(distance, 1e-6);
         float attenuation = distance_attenuation(distance, light.range, light.attenuation);
         bool wanted = attenuation > 0.0 && light.has_shadow != 0 && shadows_on && may_light(s, direction);
-        vec3 step = s.mesh_normal * distance;
-        float lit = omni_shadow_at(light, s.position, step, wanted);
+        float lit = omni_shadow_at(light, s, wanted);
         vec3 color = light.color * attenuation * mix(light.shadow_color, vec3(1.0), lit);
         add_light(s, direction, color, light.specular, sum);
     }
