@@ -24,18 +24,17 @@ void place_omni(shaders::LocalLight& out, const PlacedLocalShadow& shadow) noexc
     }
     const OmniFaces faces(shadow.rect);
     out.shadow_rect = faces.uv_tiles(shadow.atlas_size);
-    out.shadow_near = omni_face_near_m(out.range);
-    // Across a row or a column, that is: the farthest texel is one aside, too.
-    out.shadow_step = std::hypot(shadow.step_texels, 1.0f) * faces.texel_at_one_metre();
+    out.shadow_near = local_shadow_near_m(shadow.fit, out.range);
+    out.shadow_step = shadow.step_texels * faces.texel_at_one_metre();
 }
 
 } // namespace
 
-glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept {
+glm::mat4 spot_clip_from_light(const LightDesc& light, ShadowFit fit) noexcept {
     CameraDesc camera;
     camera.fov_deg = 2.0f * light.spot_angle_deg;
-    camera.near_m = kLocalShadowNear;
-    camera.far_m = std::max(light.range_m, 2.0f * kLocalShadowNear);
+    camera.near_m = local_shadow_near_m(fit, light.range_m);
+    camera.far_m = std::max(light.range_m, 2.0f * camera.near_m);
     return projection_matrix(camera, glm::ivec2(1));
 }
 
@@ -70,7 +69,7 @@ shaders::LocalLight make_local_light(const LightItem& light, const Transform& wo
     out.shadow_step = shadow->step_texels * (edge_at_one_metre / static_cast<float>(shadow->rect.size.x));
     glm::mat4 unit_from_clip(0.5f);
     unit_from_clip[3] = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
-    out.shadow_from_view = unit_from_clip * spot_clip_from_light(desc) * light_from_view;
+    out.shadow_from_view = unit_from_clip * spot_clip_from_light(desc, shadow->fit) * light_from_view;
     return out;
 }
 

@@ -22,10 +22,16 @@ struct PlacedLocalShadow {
     ShadowFit fit = ShadowFit::AsSet;
 };
 
+/// Casters nearer than this to an omni or spot cast no shadow [m]. ShadowFit::ByTexel: a part of its range,
+/// so that a scene looks the same at any scale; at the end of the range a step of a 24-bit depth is a tenth
+/// of a texel of a large map.
+[[nodiscard]] constexpr float local_shadow_near_m(ShadowFit fit, float range_m) noexcept {
+    return fit == ShadowFit::AsSet ? 0.01f : range_m / 4096.0f;
+}
+
 /// View volume of a spot's shadow map: clip from light space (spec scene-classes section 9). 90 degrees and
 /// more cast no shadow.
-[[nodiscard]] glm::mat4 spot_clip_from_light(const LightDesc& light) noexcept;
-inline constexpr float kLocalShadowNear = 0.01f; ///< [m]
+[[nodiscard]] glm::mat4 spot_clip_from_light(const LightDesc& light, ShadowFit fit) noexcept;
 
 /// The light of one omni or spot for shading in view space. @param shadow  nullopt: casts none
 [[nodiscard]] shaders::LocalLight make_local_light(const LightItem& light, const Transform& world_from_view,

@@ -36,11 +36,4 @@ private:
     float right_angle_; ///< what 90 degrees take of it [texels]
 };
 
-/// Casters nearer than this to an omni with such a map cast no shadow [m]. A part of its range, so that a
-/// scene looks the same at any scale: at the end of the range a step of a 24-bit depth is a tenth of a texel
-/// of a large map.
-[[nodiscard]] constexpr float omni_face_near_m(float range_m) noexcept {
-    return range_m / 4096.0f;
-}
-
 } // namespace cl::gles3

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cl::gles3 {
 
@@ -27,13 +28,14 @@ struct ShadowBias {
 }
 
 /// @param as_set_m  what ShadowFit::AsSet uses for casters
-[[nodiscard]] constexpr ShadowBias shadow_bias(const Frame& frame, glm::vec2 as_set_m) noexcept {
+[[nodiscard]] inline ShadowBias shadow_bias(const Frame& frame, glm::vec2 as_set_m) noexcept {
     if (frame.shadow_fit == ShadowFit::AsSet) {
         return {as_set_m, 0.0f};
     }
-    // The farthest that lib/shadow.glsl mixes in: its taps 0, 1 or 2 steps away, each filtered over 2 x 2.
+    // The farthest that lib/shadow.glsl mixes in: its taps 0, 1 or 2 steps away across a row or a column,
+    // each filtered over 2 x 2, so that the farthest texel is one aside, too.
     const float taps = static_cast<float>(std::clamp(frame.shadow_filter, 0, 2));
-    return {glm::vec2(0.0f), taps * shadow_tap_texels(frame.shadow_fit) + 1.0f};
+    return {glm::vec2(0.0f), std::hypot(taps * shadow_tap_texels(frame.shadow_fit) + 1.0f, 1.0f)};
 }
 
 } // namespace cl::gles3

@@ -15,10 +15,10 @@ namespace {
 
 constexpr gl::SamplerDesc kCompareSampler{.filter = gl::Filter::Linear, .compare = gl::Compare::LessEqual};
 
-bool casts_local_shadow(const LightItem& light) noexcept {
+bool casts_local_shadow(const LightItem& light, ShadowFit fit) noexcept {
     const LightDesc& d = *light.desc;
     // A spot of 90 degrees and more has no perspective that could hold its map.
-    return d.shadow && d.range_m > 2.0f * kLocalShadowNear &&
+    return d.shadow && d.range_m > 2.0f * local_shadow_near_m(fit, d.range_m) &&
            (d.type == LightType::Omni || (d.type == LightType::Spot && d.spot_angle_deg < 90.0f));
 }
 
@@ -76,7 +76,7 @@ Status LocalShadowPass::draw_spot(const LightItem& light, const Drawn& now, cons
                    .target = &atlas_->framebuffer,
                    .viewport = now.rect,
                    .depth = gl::Load::Clear});
-    const CasterView view{light.world_from_light.inverse(), spot_clip_from_light(*light.desc),
+    const CasterView view{light.world_from_light.inverse(), spot_clip_from_light(*light.desc, now.fit),
                           now.bias.caster_m};
     return casters.draw(pass, light, view, resources);
 }
@@ -89,7 +89,7 @@ Status LocalShadowPass::draw_faces(const LightItem& light, const Drawn& now, con
                    .viewport = faces.rect(),
                    .depth = gl::Load::Clear});
     const Transform light_from_world = light.world_from_light.inverse();
-    const glm::mat4 clip_from_face = faces.clip_from_face(omni_face_near_m(light.desc->range_m));
+    const glm::mat4 clip_from_face = faces.clip_from_face(local_shadow_near_m(now.fit, light.desc->range_m));
     for (int face = 0; face < 6; ++face) {
         pass.set_viewport(faces.rect(face));
         const CasterView view{OmniFaces::face_from_light(face) * light_from_world, clip_from_face,
@@ -121,7 +121,7 @@ LocalShadowPass::draw(const Frame& frame, const Resources& resources, CasterDraw
     const int atlas_size = std::clamp(frame.shadow_atlas_size, 0, limit);
     for (size_t i = 0; i < frame.lights.size(); ++i) {
         const LightItem& light = frame.lights[i];
-        if (casts_local_shadow(light)) {
+        if (casts_local_shadow(light, frame.shadow_fit)) {
             const float coverage = light_coverage(light, frame.camera, frame.size);
             requests.push_back({light.key, wanted_slot_size(coverage, atlas_size), reach_m(light)});
             owners.push_back(i);

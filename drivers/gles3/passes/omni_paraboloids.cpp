@@ -31,7 +31,7 @@ Transform face_from_light(gl::CubeFace face) noexcept {
 glm::mat4 clip_from_face(float range_m) noexcept {
     CameraDesc camera;
     camera.fov_deg = 90.0f;
-    camera.near_m = kLocalShadowNear;
+    camera.near_m = local_shadow_near_m(ShadowFit::AsSet, range_m);
     camera.far_m = range_m;
     return projection_matrix(camera, glm::ivec2(1));
 }
@@ -83,7 +83,8 @@ Status OmniParaboloids::draw(const gl::Framebuffer& atlas, const gl::Rect& slot,
     if (!program) {
         return program.error();
     }
-    (*program)->set(S::near_far, glm::vec2(kLocalShadowNear, light.desc->range_m));
+    (*program)->set(S::near_far, glm::vec2(local_shadow_near_m(ShadowFit::AsSet, light.desc->range_m),
+                                           light.desc->range_m));
     (*program)->set(S::bias, bias_m);
     (*program)->set(S::range, light.desc->range_m);
     (*program)->bind(S::faces, (*cube)->texture);
