@@ -25,7 +25,8 @@ Status write_pictures(const std::filesystem::path& folder) {
     }
     scene::SceneTree tree(std::move(*server), {.size = {480, 360}});
     std::unique_ptr<scene::Node> room = demo::make_spinning_lamp_scene(scene::GIProbeSubdiv::Cells64);
-    const Expected<scene::BakeFigures> baked = room->get_node_as<scene::GIProbe>("Probe")->bake();
+    const Expected<scene::BakeFigures> baked =
+        room->get_node_as<scene::GIProbe>("Probe")->bake(nullptr, {}, scene::BakeFor::Once);
     if (!baked) {
         return baked.error();
     }

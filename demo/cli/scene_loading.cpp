@@ -114,10 +114,11 @@ Expected<ProbeFigures> bake_with_progress(scene::Node& root, scene::GIProbe& pro
     const std::string path = path_from_root(root, probe);
     ProgressBar bar("baking " + path, options.verbosity);
     const Stopwatch watch;
-    const Expected<scene::BakeFigures> baked = probe.bake(&root, [&bar](float share) {
+    const auto show = [&bar](float share) {
         bar.show(share);
         return true;
-    });
+    };
+    const Expected<scene::BakeFigures> baked = probe.bake(&root, show, scene::BakeFor::Once);
     if (!baked) {
         return baked.error();
     }

@@ -126,13 +126,24 @@ void GIProbe::copy_state_from(const Node& original) {
     }
 }
 
-Expected<BakeFigures> GIProbe::bake(const Node* from, const gi::BakeProgress& progress) {
+Expected<BakeFigures> GIProbe::bake(const Node* from, const gi::BakeProgress& progress, BakeFor purpose) {
     const Node* start = from ? from : parent() ? parent() : this;
-    const BakeRequest request{
+    BakeRequest request{
         .extents_m = extents_m_,
         .subdivision = 64 << static_cast<int>(subdiv_),
         .world_from_probe = global_transform(),
     };
+    if (purpose == BakeFor::Once) {
+        memory_.reset();
+    } else {
+        if (!memory_) {
+            memory_ = std::make_unique<BakeMemory>();
+        }
+        request.memory = memory_.get();
+        if (data_ && data_->cells_version() == remembered_version_) {
+            request.last_result = data_->data().dynamic_data;
+        }
+    }
     Expected<BakeResult> result = bake_probe(*start, request, progress);
     if (!result) {
         return result.error();
@@ -148,6 +159,7 @@ Expected<BakeFigures> GIProbe::bake(const Node* from, const gi::BakeProgress& pr
     const Ref<GIProbeData> target = data_ ? data_ : make_ref<GIProbeData>();
     target->set_data(std::move(baked));
     set_data(target);
+    remembered_version_ = target->cells_version();
     return result->figures;
 }
 

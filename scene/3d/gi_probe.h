@@ -9,11 +9,15 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace cl::scene {
 
 /// Leaf cells along the longest axis: 64 << value.
 enum class GIProbeSubdiv : uint8_t { Cells64, Cells128, Cells256, Cells512 };
+
+/// Whether a bake keeps what makes the next one quick (BakeMemory).
+enum class BakeFor : uint8_t { Edits, Once };
 
 /// Box that receives indirect light. What it shows is `data`, made by bake(). Scale has no effect on it; its
 /// rotation has. Energy, bias, normal bias, propagation, interior and compress are passed on to the data when
@@ -56,11 +60,13 @@ public:
     void set_data(Ref<GIProbeData> data);
 
     /// Voxelises what lies in the box and puts the result into `data`, which is made if there is none; needs
-    /// no tree, server or graphics. Lights are no part of it.
+    /// no tree, server or graphics. Lights are no part of it. The second bake plots only what changed since
+    /// the first, with the same result.
     /// @param from      the node to start from; null: this node's parent, else the node itself
     /// @param progress  share done, may cancel
     /// @return what became of it; InvalidArgument for extents that give no grid, Cancelled, OutOfMemory.
-    Expected<BakeFigures> bake(const Node* from = nullptr, const gi::BakeProgress& progress = {});
+    Expected<BakeFigures> bake(const Node* from = nullptr, const gi::BakeProgress& progress = {},
+                               BakeFor purpose = BakeFor::Edits);
 
 protected:
     RID base_rid(VisualServer& server) override;
@@ -77,6 +83,8 @@ private:
     bool interior_ = false;
     bool compress_ = false;
     Ref<GIProbeData> data_;
+    std::unique_ptr<BakeMemory> memory_; ///< of the bake that made the cells of that version; null: none
+    uint64_t remembered_version_ = 0;
 };
 
 } // namespace cl::scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/3d/bake_memory.h"
 #include "scene/resources/material.h"
 #include "scene/resources/mesh.h"
 
@@ -13,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cl::scene {
@@ -35,6 +37,9 @@ struct BakeRequest {
     glm::vec3 extents_m{10.0f}; ///< half size of the box
     int subdivision = 128;      ///< leaf cells along the longest axis: 64, 128, 256 or 512
     Transform world_from_probe; ///< orthonormal
+    /// Of the last bake, and of this one afterwards. Null: all is plotted, nothing kept.
+    BakeMemory* memory = nullptr;
+    std::span<const int32_t> last_result = {}; ///< dynamic_data that the last bake made; empty: lost
 };
 
 /// How large a bake was.
@@ -51,7 +56,7 @@ struct BakeResult {
     BakeFigures figures;
 };
 
-/// Voxelises what lies in the box of a probe.
+/// Voxelises what lies in the box of a probe; with a memory, what changed there since the last bake.
 /// @return InvalidArgument for extents that give no grid; Cancelled if `progress` said so; OutOfMemory.
 [[nodiscard]] Expected<BakeResult> bake_probe(const Node& start, const BakeRequest& request,
                                               const gi::BakeProgress& progress = {});

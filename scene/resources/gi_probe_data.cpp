@@ -5,6 +5,7 @@
 #include "core/io/log.h"
 #include "core/object/class_registry.h"
 
+#include <atomic>
 #include <utility>
 
 namespace cl::scene {
@@ -56,7 +57,7 @@ void GIProbeData::bind(ClassBuilder<GIProbeData>& c) {
 
 void GIProbeData::set_data(gi::ProbeData data) {
     data_ = std::move(data);
-    data_changed();
+    cells_changed();
 }
 
 SetResult GIProbeData::set_dynamic_data(const PoolIntArray& cells) {
@@ -68,7 +69,7 @@ SetResult GIProbeData::set_dynamic_data(const PoolIntArray& cells) {
         }
     }
     data_.dynamic_data.assign(cells.span().begin(), cells.span().end());
-    data_changed();
+    cells_changed();
     return SetResult::Done;
 }
 
@@ -130,6 +131,12 @@ RID GIProbeData::rid(VisualServer& server) const {
         log_error(path().empty() ? set.error().to_string() : path() + ": " + set.error().to_string());
     }
     return rid_.get();
+}
+
+void GIProbeData::cells_changed() {
+    static std::atomic<uint64_t> newest{0};
+    cells_version_ = ++newest;
+    data_changed();
 }
 
 void GIProbeData::data_changed() {

@@ -8,6 +8,7 @@
 #include "core/object/resource.h"
 #include "core/variant/variant.h"
 
+#include <cstdint>
 #include <string>
 
 namespace cl::scene {
@@ -21,6 +22,10 @@ public:
     [[nodiscard]] const gi::ProbeData& data() const noexcept { return data_; }
     /// Replaces everything; probes that show it start over.
     void set_data(gi::ProbeData data);
+
+    /// New whenever the cells are assigned, and then of no other object or time: the same number, the same
+    /// cells.
+    [[nodiscard]] uint64_t cells_version() const noexcept { return cells_version_; }
 
     /// Replaces the cells after checking them: Refused, with refusal() saying why, if they are not valid.
     SetResult set_dynamic_data(const PoolIntArray& cells);
@@ -43,7 +48,10 @@ private:
     /// Sends all data to the server again and tells the users.
     void data_changed();
 
+    void cells_changed();
+
     gi::ProbeData data_;
+    uint64_t cells_version_ = 0; ///< 0: none yet
     std::string refusal_;
     mutable ServerRID rid_;
 };

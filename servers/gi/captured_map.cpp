@@ -24,4 +24,11 @@ CapturedMap::CapturedMap(Image rgba8, const glm::vec3& scale, const glm::vec3& o
     }
 }
 
+void CapturedMap::add_to(Digester& digester) const {
+    digester.add(std::span<const uint8_t>(texels_));
+    for (const glm::vec3& color : of_byte_) {
+        digester.add(color.x).add(color.y).add(color.z);
+    }
+}
+
 } // namespace cl::gi

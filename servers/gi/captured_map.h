@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/digest.h"
 #include "core/image.h"
 
 #include <glm/vec3.hpp>
@@ -28,6 +29,9 @@ public:
         const uint8_t* bytes = &texels_[4 * (texel & mask_)];
         return {of_byte_[bytes[0]].r, of_byte_[bytes[1]].g, of_byte_[bytes[2]].b};
     }
+
+    /// Adds all that it shows.
+    void add_to(Digester& digester) const;
 
 private:
     std::vector<uint8_t> texels_;

@@ -25,18 +25,17 @@ public:
     /// @param levels  of the tree
     LeafPlots(std::span<const std::span<const LeafPlot>> parts, int levels);
 
+    /// A brick's plots; triangles ascend.
     /// @param number  slots from the root to the brick, three bits a level; below kBakeBricks
-    [[nodiscard]] bool touches_brick(uint32_t number) const noexcept { return !of_brick(number).empty(); }
-    /// Sorts a brick's plots by leaf, then triangle.
-    [[nodiscard]] std::vector<LeafPlot> sorted_by_leaf(uint32_t number) const;
-
-private:
     [[nodiscard]] std::span<const LeafPlot> of_brick(uint32_t number) const noexcept {
         return plots_.empty()
                    ? std::span<const LeafPlot>()
                    : std::span(plots_).subspan(begin_[number], begin_[number + 1] - begin_[number]);
     }
+    /// The same, by leaf, then triangle.
+    [[nodiscard]] std::vector<LeafPlot> sorted_by_leaf(uint32_t number) const;
 
+private:
     int leaf_bits_ = 0; ///< of LeafPlot::leaf within a brick
     std::vector<LeafPlot> plots_;
     std::vector<size_t> begin_; ///< of each brick, and the end

@@ -1,5 +1,5 @@
 // The ints of GIProbeData.dynamic_data (spec gi-probe-data section 5).
-#include "servers/gi/probe_data.h"
+#include "servers/gi/octree_writer.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,6 @@
 namespace cl::gi {
 
 namespace {
-
-constexpr size_t kHeaderInts = 16;
-constexpr size_t kCellInts = 12;
-static_assert(sizeof(Cell) == kCellInts * sizeof(int32_t), "a Cell is a cell record as stored");
 
 Error parse_error(std::string message) {
     return {ErrorCode::ParseError, "dynamic_data: " + std::move(message)};
@@ -159,17 +155,9 @@ Expected<Octree> decode_octree(std::span<const int32_t> dynamic_data) {
 }
 
 std::vector<int32_t> encode_octree(const Octree& octree) {
-    std::vector<int32_t> ints(kHeaderInts + octree.cells.size() * kCellInts, 0);
-    ints[1] = octree.levels;
-    ints[2] = octree.dims.x;
-    ints[3] = octree.dims.y;
-    ints[4] = octree.dims.z;
-    ints[5] = int32_t(octree.cells.size());
-    ints[6] = int32_t(octree.leaf_count);
-    if (!octree.cells.empty()) {
-        std::memcpy(ints.data() + kHeaderInts, octree.cells.data(), octree.cells.size() * sizeof(Cell));
-    }
-    return ints;
+    OctreeWriter writer(octree.levels, octree.dims, octree.cells.size());
+    writer.append(octree.cells, 0);
+    return writer.finish(octree.leaf_count);
 }
 
 } // namespace cl::gi

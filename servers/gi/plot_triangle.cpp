@@ -1,5 +1,6 @@
 #include "servers/gi/plot_triangle.h"
 
+#include "servers/gi/brick_filter.h"
 #include "servers/gi/small_triangles.h"
 #include "servers/gi/triangle_box.h"
 
@@ -119,62 +120,76 @@ Expected<std::vector<Part>> make_parts(std::span<const PlotSurface> surfaces) {
     return parts;
 }
 
-/// @return false for a triangle that is left out.
-bool set_triangle(const PlotSurface& s, size_t corner, const Boxes<float>& box, PlotTriangle& t) {
-    for (size_t k = 0; k < 3; ++k) {
-        t.vertex[k] = s.indices.empty() ? uint32_t(corner + k) : s.indices[corner + k];
-        t.v[k] = s.local_from_mesh.xform(s.positions[t.vertex[k]]);
-        if (!is_usable(t.v[k])) {
+/// Turns corners into triangles and finds what these touch.
+class Collector {
+public:
+    Collector(const Grid& grid, const BrickFilter* filter, PlotTriangle* triangles)
+        : small_(grid), filter_(filter), triangles_(triangles) {
+        const glm::vec3 half = grid.box.size * 0.5f;
+        const glm::vec3 center = grid.box.position + half;
+        box_ = {{center.x, center.y, center.z}, {half.x, half.y, half.z}};
+    }
+
+    void collect(const PlotSurface& s, Part& part) const {
+        for (size_t corner = part.begin; corner < part.end; corner += 3) {
+            const uint32_t number = part.first_triangle + uint32_t((corner - part.begin) / 3);
+            PlotTriangle& t = triangles_[number];
+            if (!set_triangle(s, corner, t)) {
+                continue;
+            }
+            t.surface = part.surface;
+            SmallTriangles::Leaves leaves;
+            if (small_.find_leaves(t.v, leaves)) {
+                for (const uint32_t leaf : leaves) {
+                    part.small.push_back({leaf, number});
+                }
+            } else {
+                part.broad.push_back({number, make_center_test(t.v, t.axis)});
+            }
+        }
+    }
+
+private:
+    /// @return false for a triangle that is left out.
+    bool set_triangle(const PlotSurface& s, size_t corner, PlotTriangle& t) const {
+        for (size_t k = 0; k < 3; ++k) {
+            t.vertex[k] = s.indices.empty() ? uint32_t(corner + k) : s.indices[corner + k];
+            t.v[k] = s.local_from_mesh.xform(s.positions[t.vertex[k]]);
+            if (!is_usable(t.v[k])) {
+                return false;
+            }
+        }
+        if ((!lies_within(box_, t.v) && separated(box_, t.v)) || (filter_ && !filter_->may_touch(t.v))) {
             return false;
         }
+        set_plane(t);
+        t.is_uniform = is_uniform(s, t.vertex);
+        return true;
     }
-    if (!lies_within(box, t.v) && separated(box, t.v)) {
-        return false;
-    }
-    set_plane(t);
-    t.is_uniform = is_uniform(s, t.vertex);
-    return true;
-}
 
-void collect(const PlotSurface& s, const Boxes<float>& box, const SmallTriangles& small, Part& part,
-             PlotTriangle* triangles) {
-    for (size_t corner = part.begin; corner < part.end; corner += 3) {
-        const uint32_t number = part.first_triangle + uint32_t((corner - part.begin) / 3);
-        PlotTriangle& t = triangles[number];
-        if (!set_triangle(s, corner, box, t)) {
-            continue;
-        }
-        t.surface = part.surface;
-        SmallTriangles::Leaves leaves;
-        if (small.find_leaves(t.v, leaves)) {
-            for (const uint32_t leaf : leaves) {
-                part.small.push_back({leaf, number});
-            }
-        } else {
-            part.broad.push_back({number, make_center_test(t.v, t.axis)});
-        }
-    }
-}
+    Boxes<float> box_;
+    SmallTriangles small_;
+    const BrickFilter* filter_;
+    PlotTriangle* triangles_;
+};
 
 } // namespace
 
-Expected<PlotTriangles> collect_triangles(std::span<const PlotSurface> surfaces, const Grid& grid) {
+Expected<PlotTriangles> collect_triangles(std::span<const PlotSurface> surfaces, const Grid& grid,
+                                          const BrickFilter* filter) {
     Expected<std::vector<Part>> parts = make_parts(surfaces);
     if (!parts) {
         return parts.error();
     }
-    const glm::vec3 half = grid.box.size * 0.5f;
-    const glm::vec3 center = grid.box.position + half;
-    const Boxes<float> box{{center.x, center.y, center.z}, {half.x, half.y, half.z}};
-    const SmallTriangles small(grid);
     PlotTriangles all;
     const size_t count =
         parts->empty() ? 0 : parts->back().first_triangle + (parts->back().end - parts->back().begin) / 3;
     // Not set to 0: a third of the time would go into pages that the triangles below touch anyway.
     all.by_number = std::make_unique_for_overwrite<PlotTriangle[]>(count);
+    const Collector collector(grid, filter, all.by_number.get());
     parallel_for_each(parts->size(), [&](size_t i) {
         Part& part = (*parts)[i];
-        collect(surfaces[part.surface], box, small, part, all.by_number.get());
+        collector.collect(surfaces[part.surface], part);
     });
     std::vector<std::span<const LeafPlot>> plots;
     for (const Part& part : *parts) {

@@ -13,6 +13,8 @@
 
 namespace cl::gi {
 
+class BrickFilter;
+
 /// A triangle of the bake, in probe-local metres, with what every leaf that it touches needs of it.
 struct PlotTriangle {
     glm::vec3 v[3];
@@ -43,8 +45,10 @@ struct PlotTriangles {
 
 /// Prepares the triangles that touch the grid's box. Those with a coordinate that is not finite or beyond
 /// 1e12 m are left out: their separating-axis test would overflow and find them everywhere.
+/// @param filter  which triangles matter; null: all
 /// @return InvalidArgument where arrays do not fit together; OutOfMemory beyond 2^31 triangles.
 [[nodiscard]] Expected<PlotTriangles> collect_triangles(std::span<const PlotSurface> surfaces,
-                                                        const Grid& grid);
+                                                        const Grid& grid,
+                                                        const BrickFilter* filter = nullptr);
 
 } // namespace cl::gi

@@ -56,7 +56,7 @@ struct CellLayout {
 
     [[nodiscard]] size_t cell_count() const noexcept { return voxels.size(); }
 };
-/// Spec gi-update section 3, step 2. @param octree  as decode_octree() and voxelize() return them.
+/// Spec gi-update section 3, step 2. @param octree  as decode_octree() returns it.
 [[nodiscard]] CellLayout make_layout(const Octree& octree);
 
 /// Energies of all cells.

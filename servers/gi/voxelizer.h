@@ -29,6 +29,7 @@ struct CaptureInput {
     float emission_energy = 1.0f;
     bool emission_multiply = false;
     const Image* emission_texture = nullptr;
+    friend bool operator==(const CaptureInput&, const CaptureInput&) = default;
 };
 [[nodiscard]] MaterialCapture capture_material(const CaptureInput& input);
 
@@ -57,14 +58,22 @@ struct BakeLimits {
     uint32_t max_cells = kMaxCells; ///< kMaxCells at most
 };
 
+/// An octree as a probe keeps it.
+struct BakedOctree {
+    std::vector<int32_t> dynamic_data; ///< as encode_octree() writes it
+    uint32_t cell_count = 0;           ///< of all levels
+    uint32_t leaf_count = 0;
+};
+
 /// Voxelises surfaces into an octree: plot, fix-up and quantisation of spec gi-bake sections 4 to 6.
 /// Godot 3.2.3 bakes the same cells; their order in the array is depth first here, where Godot's is the order
 /// of creation. The result is the same for any number of threads.
 /// @return InvalidArgument if a surface's arrays do not fit together or its material is missing; Cancelled if
 ///         `progress` said so; OutOfMemory beyond `limits`.
 /// Departs: triangles with coordinates that are not finite or beyond 1e12 m are left out.
-[[nodiscard]] Expected<Octree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces,
-                                        const BakeProgress& progress = {}, const BakeLimits& limits = {});
+[[nodiscard]] Expected<BakedOctree> voxelize(const Grid& grid, std::span<const PlotSurface> surfaces,
+                                             const BakeProgress& progress = {},
+                                             const BakeLimits& limits = {});
 
 /// Separating-axis test of gi-bake section 4.1; touching counts as overlap. float32 throughout.
 [[nodiscard]] bool triangle_overlaps_box(const glm::vec3& center, const glm::vec3& half, const glm::vec3& a,

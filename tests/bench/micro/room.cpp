@@ -33,9 +33,9 @@ void Room::add(const SurfaceArrays& arrays, const glm::vec3& center_m, const glm
 }
 
 gi::Octree Room::octree(int cells) const {
-    Expected<gi::Octree> made = gi::voxelize(*gi::compute_grid(glm::vec3(kHalf_m), cells), surfaces_);
-    CL_ASSERT(made.has_value(), "the room is baked");
-    return std::move(*made);
+    const auto baked = gi::voxelize(*gi::compute_grid(glm::vec3(kHalf_m), cells), surfaces_);
+    CL_ASSERT(baked.has_value(), "the room is baked");
+    return *gi::decode_octree(baked->dynamic_data);
 }
 
 std::shared_ptr<const radiosity::StillScene> Room::still_scene() const {

@@ -20,6 +20,7 @@ public:
     [[nodiscard]] gi::Octree octree(int cells) const;
     [[nodiscard]] std::shared_ptr<const radiosity::StillScene> still_scene() const;
 
+    static constexpr size_t kBox = 6;      ///< number of the box among the surfaces
     static constexpr float kHalf_m = 2.3f; ///< half the edge of the probe's box around the origin
 
 private:

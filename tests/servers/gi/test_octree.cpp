@@ -27,9 +27,9 @@ gi::Octree worked_example() {
     surface.uvs = quad.uvs;
     surface.material = &material;
     const Expected<gi::Grid> grid = gi::compute_grid({1.0f, 0.5f, 0.75f}, 64);
-    const Expected<gi::Octree> octree = gi::voxelize(*grid, std::span(&surface, 1));
-    REQUIRE(octree.has_value());
-    return *octree;
+    const Expected<gi::BakedOctree> baked = gi::voxelize(*grid, std::span(&surface, 1));
+    REQUIRE(baked.has_value());
+    return *gi::decode_octree(baked->dynamic_data);
 }
 
 struct ExpectedCell {
@@ -122,11 +122,10 @@ TEST_SUITE("servers/gi/octree") {
 
     TEST_CASE("a bake of nothing is a root alone and valid") {
         const Expected<gi::Grid> grid = gi::compute_grid(glm::vec3(1.0f), 64);
-        const Expected<gi::Octree> octree = gi::voxelize(*grid, {});
-        REQUIRE(octree.has_value());
-        const std::vector<int32_t> ints = gi::encode_octree(*octree);
-        CHECK(ints.size() == 28);
-        CHECK(error_of(ints) == "no error");
+        const Expected<gi::BakedOctree> baked = gi::voxelize(*grid, {});
+        REQUIRE(baked.has_value());
+        CHECK(baked->dynamic_data.size() == 28);
+        CHECK(error_of(baked->dynamic_data) == "no error");
     }
 
     TEST_CASE("damaged ints are refused with the first that is wrong") {

@@ -39,13 +39,16 @@ public:
     [[nodiscard]] gi::MaterialCapture& last_material() { return *materials_.back(); }
 
     [[nodiscard]] gi::Octree run() const {
-        const Expected<gi::Octree> octree = gi::voxelize(grid_, surfaces_);
-        REQUIRE_MESSAGE(octree.has_value(), (octree ? "" : octree.error().message));
-        CHECK(gi::decode_octree(gi::encode_octree(*octree)).has_value());
+        const Expected<gi::BakedOctree> baked = gi::voxelize(grid_, surfaces_);
+        REQUIRE_MESSAGE(baked.has_value(), (baked ? "" : baked.error().message));
+        const Expected<gi::Octree> octree = gi::decode_octree(baked->dynamic_data);
+        REQUIRE(octree.has_value());
+        CHECK(baked->cell_count == octree->cells.size());
+        CHECK(baked->leaf_count == octree->leaf_count);
         return *octree;
     }
-    [[nodiscard]] Expected<gi::Octree> attempt(const gi::BakeProgress& progress,
-                                               const gi::BakeLimits& limits = {}) const {
+    [[nodiscard]] Expected<gi::BakedOctree> attempt(const gi::BakeProgress& progress,
+                                                    const gi::BakeLimits& limits = {}) const {
         return gi::voxelize(grid_, surfaces_, progress, limits);
     }
 
@@ -291,7 +294,7 @@ TEST_SUITE("servers/gi/voxelizer") {
             Bake bake;
             bake.add(cube, Transform{});
             change(bake.add(cube, Transform{}));
-            const Expected<gi::Octree> octree = bake.attempt({});
+            const Expected<gi::BakedOctree> octree = bake.attempt({});
             return octree ? std::string("no error") : octree.error().message;
         };
         CHECK(message([](gi::PlotSurface&) {}) == "no error");
@@ -321,7 +324,7 @@ TEST_SUITE("servers/gi/voxelizer") {
         CHECK(grows);
         CHECK(last == 1.0f);
         int calls = 0;
-        const Expected<gi::Octree> cancelled = bake.attempt([&](float) { return ++calls < 3; });
+        const Expected<gi::BakedOctree> cancelled = bake.attempt([&](float) { return ++calls < 3; });
         REQUIRE_FALSE(cancelled.has_value());
         CHECK(cancelled.error().code == ErrorCode::Cancelled);
         CHECK(calls == 3);
@@ -332,7 +335,7 @@ TEST_SUITE("servers/gi/voxelizer") {
         const gi::Octree octree = bake.run();
         const uint32_t needed = uint32_t(octree.cells.size());
         CHECK(bake.attempt({}, {needed}).has_value());
-        const Expected<gi::Octree> refused = bake.attempt({}, {needed - 1});
+        const Expected<gi::BakedOctree> refused = bake.attempt({}, {needed - 1});
         REQUIRE_FALSE(refused.has_value());
         CHECK(refused.error().code == ErrorCode::OutOfMemory);
         CHECK_FALSE(bake.attempt({}, {100}).has_value());
