@@ -2,30 +2,28 @@
 
 #include "servers/radiosity/for_all.h"
 #include "servers/radiosity/gather.h"
+#include "servers/radiosity/half4.h"
 
 #include "core/threads.h"
 
-#include <glm/common.hpp>
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
-#include <cmath>
+#include <cstring>
 
 namespace cl::radiosity {
 namespace {
 
 constexpr float kMaxRadiance = 65408.0f;
 
-void write_half(const glm::vec3& color, uint16_t* out) noexcept {
-    for (int channel = 0; channel < 3; ++channel) {
-        out[channel] = glm::packHalf1x16(glm::clamp(color[channel], -kMaxRadiance, kMaxRadiance));
-    }
+void write_texel(Rgb4 value, uint16_t* texel) noexcept {
+    const uint64_t halves =
+        pack_halves(gi::lesser(gi::greater(value, gi::splat(-kMaxRadiance)), gi::splat(kMaxRadiance)));
+    std::memcpy(texel, &halves, sizeof halves);
 }
 
 /// Reach along an axis to both sides, quarters of a cell: 32 * below + above, a number that a half holds
 /// exactly.
 float packed_reach(const std::array<float, 6>& reach, int axis) noexcept {
-    const auto quarters = [](float cells) { return std::floor(std::clamp(cells * 4.0f, 0.0f, 31.0f)); };
+    const auto quarters = [](float cells) { return float(int(std::clamp(cells * 4.0f, 0.0f, 31.0f))); };
     return 32.0f * quarters(reach[size_t(axis) * 2]) + quarters(reach[size_t(axis) * 2 + 1]);
 }
 
@@ -88,11 +86,11 @@ std::vector<uint16_t> encode_air(std::span<const AirPoints> air, const FieldMap&
         parallel_for(light[p].size(), kGrain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
                 const AirLight& at = light[p][i];
-                write_half(at.mean, texel_of(int(i), 0));
+                write_texel(rgb4(at.mean), texel_of(int(i), 0));
                 for (int axis = 0; axis < 3; ++axis) {
-                    uint16_t* texel = texel_of(int(i), 1 + axis);
-                    write_half(at.slope[size_t(axis)], texel);
-                    texel[3] = glm::packHalf1x16(packed_reach(air[p].reach[i], axis));
+                    Rgb4 slope = rgb4(at.slope[size_t(axis)]);
+                    slope[3] = packed_reach(air[p].reach[i], axis);
+                    write_texel(slope, texel_of(int(i), 1 + axis));
                 }
             }
         });
