@@ -36,7 +36,7 @@ bool VisualServer::Impl::lights_by_gi() const {
 
 /// Each way of finding indirect light keeps its own state, and only the one in use costs anything: none under
 /// a rasteriser that follows light itself.
-Status VisualServer::Impl::step_gi(FieldDriver::Rest rest) {
+Status VisualServer::Impl::step_gi(Rest rest) {
     if (!lights_by_gi()) {
         return {};
     }
@@ -75,7 +75,7 @@ Status VisualServer::draw() {
         errors.note(impl_->draw_viewport(viewport));
         to_window = to_window || viewport.to_window;
     });
-    errors.note(impl_->step_gi(FieldDriver::Rest::AfterSteps));
+    errors.note(impl_->step_gi(Rest::AfterSteps));
     if (to_window) {
         impl_->rasterizer->present();
     }
@@ -87,7 +87,7 @@ void VisualServer::settle() {
     constexpr int kMaxRounds = 16;
     for (int round = 0; round < kMaxRounds; ++round) {
         impl_->instances.update();
-        if (const Status stepped = impl_->step_gi(FieldDriver::Rest::AtOnce); !stepped) {
+        if (const Status stepped = impl_->step_gi(Rest::AtOnce); !stepped) {
             log_error(stepped.error().message);
         }
         if (impl_->gi_is_settled()) {

@@ -61,12 +61,10 @@ std::vector<AirLight> gather_air(const AirPoints& air, std::span<const Rgb4> sky
 std::vector<std::vector<AirLight>> light_air(std::span<const AirPoints> air, const Lighting& lighting,
                                              const Solution& solution) {
     const std::vector<Rgb4> sky = sky_lanes(lighting);
-    std::vector<Rgb4> leaving(solution.leaving.size());
-    for_all(leaving.size(), [&](size_t p) { leaving[p] = rgb4(solution.leaving[p]); });
     std::vector<std::vector<AirLight>> light;
     for (size_t i = 0; i < air.size(); ++i) {
         const bool is_interior = i < lighting.interior.size() && lighting.interior[i];
-        light.push_back(gather_air(air[i], is_interior ? std::span<const Rgb4>{} : sky, leaving));
+        light.push_back(gather_air(air[i], is_interior ? std::span<const Rgb4>{} : sky, solution.leaving));
     }
     return light;
 }

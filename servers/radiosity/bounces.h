@@ -8,7 +8,7 @@
 
 namespace cl::radiosity {
 
-/// All bounces after the first: finds what records have where one more step_bounce() changes nothing, each
+/// All bounces after the first: finds what records have where one more exchange changes nothing, each
 /// channel to a residual of 2e-4. A room of albedo 0.95 that would take a hundred bounces takes a dozen
 /// steps. The same numbers for any number of threads. Source: truncated generalised conjugate residuals
 /// (Eisenstat, Elman and Schultz 1983).

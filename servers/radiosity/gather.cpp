@@ -36,18 +36,16 @@ std::vector<Rgb4> sky_lanes(const Lighting& lighting) {
     return sky;
 }
 
-std::vector<Rgb4> gather_records(const Transport& t, const Lighting& lighting,
-                                 std::span<const Rgb4> leaving) {
+std::vector<Rgb4> from_surroundings(const Transport& t, const Lighting& lighting) {
     const std::vector<Rgb4> sky = sky_lanes(lighting);
     std::vector<Rgb4> arriving(t.records.patch.size());
     for_all(arriving.size(), [&](size_t r) {
         const Links::Point& point = t.records.links.points[r];
-        Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving);
+        arriving[r] = rgb4(t.records.emitted[r]);
         if (sky_reaches(t, lighting, t.records.patch[r])) {
-            sum += sum_over(t.records.links.skies_of(point), sky);
+            arriving[r] += sum_over(t.records.links.skies_of(point), sky) *
+                           gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
         }
-        arriving[r] =
-            rgb4(t.records.emitted[r]) + sum * gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
     });
     return arriving;
 }
@@ -59,31 +57,6 @@ void add_bounce(const Transport& t, std::span<const Rgb4> leaving, std::span<con
         const Rgb4 sum = sum_over(t.records.links.patches_of(point), leaving);
         arriving[r] = first[r] + sum * gi::splat(1.0f / float(std::max(point.ray_count, 1u)));
     });
-}
-
-void step_bounce(const Transport& t, std::span<const Rgb4> first, std::span<const Rgb4> now,
-                 std::span<Rgb4> next) {
-    for_all(next.size(), [&](size_t r) {
-        Rgb4 sum = first[r];
-        for (uint32_t e = t.exchange_first[r]; e < t.exchange_first[r + 1]; ++e) {
-            const Transport::Exchange& x = t.exchanges[e];
-            sum += rgb4(x.albedo) * now[x.record];
-        }
-        next[r] = sum;
-    });
-}
-
-std::vector<Rgb4> at_patches(const Transport& t, std::span<const Rgb4> at_records) {
-    std::vector<Rgb4> out(t.patches.size());
-    const std::vector<glm::vec3>& detail = t.records.emitted_detail;
-    for_all(out.size(), [&](size_t p) {
-        Rgb4 sum = detail.empty() ? Rgb4{} : rgb4(detail[p]);
-        for (const Records::Share& s : t.records.of_patch(uint32_t(p))) {
-            sum += gi::splat(s.weight) * at_records[s.record];
-        }
-        out[p] = sum;
-    });
-    return out;
 }
 
 } // namespace cl::radiosity

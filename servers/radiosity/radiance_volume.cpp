@@ -22,8 +22,7 @@ struct Texels {
     }
 };
 
-Texels finest(const Patches& patches, size_t probe, const glm::ivec3& size,
-              std::span<const glm::vec3> leaving) {
+Texels finest(const Patches& patches, size_t probe, const glm::ivec3& size, std::span<const Rgb4> leaving) {
     Texels out{size,
                std::vector<glm::vec4>(size_t(size.x) * size_t(size.y) * size_t(size.z), glm::vec4(0.0f))};
     const std::vector<uint32_t>& first = patches.grids[probe].first;
@@ -31,7 +30,7 @@ Texels finest(const Patches& patches, size_t probe, const glm::ivec3& size,
         glm::vec3 sum(0.0f);
         float area = 0.0f;
         for (uint32_t p = first[cell]; p < first[cell + 1]; ++p) {
-            sum += patches.area_m2[p] * leaving[p];
+            sum += patches.area_m2[p] * rgb(leaving[p]);
             area += patches.area_m2[p];
         }
         const glm::ivec3 c = patches.grids[probe].cells.cell_at(patches.order[first[cell]]);

@@ -126,6 +126,7 @@ Status FieldDriver::step(Rest rest) {
         }
         FieldGeometry geometry = wanted_geometry(scenario, rest);
         radiosity::Lighting lighting = wanted_lighting(scenario, geometry);
+        field.steady.mark(lighting, step_, rest);
         const FieldReaders readers = wanted_readers(scenario, geometry);
         if (!field.parts.transport || geometry != field.geometry || lighting != field.lighting ||
             !field.readers.include(readers)) {

@@ -3,6 +3,8 @@
 #include "servers/visual/field_job.h"
 #include "servers/visual/first_error.h"
 #include "servers/visual/instance_storage.h"
+#include "servers/visual/rest.h"
+#include "servers/visual/steady_lights.h"
 #include "servers/visual/storage.h"
 
 #include "core/threads.h"
@@ -21,15 +23,11 @@ namespace cl {
 /// the air, and the field is made without it, until it rests.
 class FieldDriver {
 public:
-    static constexpr uint64_t kRestSteps = 30;
-
     FieldDriver(Storage& storage, InstanceStorage& instances, Rasterizer& rasterizer, WorkerQueue& worker);
     ~FieldDriver();
     FieldDriver(const FieldDriver&) = delete;
     FieldDriver& operator=(const FieldDriver&) = delete;
 
-    /// When things count as resting.
-    enum class Rest : uint8_t { AfterSteps, AtOnce };
     /// How finely patches are cut: 128 cells along a probe's longest axis, or 64.
     void set_quality(Quality quality) noexcept { quality_ = quality; }
     /// Takes in what the worker finished and gives it what changed. Instances must be up to date.
@@ -55,6 +53,7 @@ private:
         FieldGeometry geometry;
         FieldParts parts;
         radiosity::Lighting lighting;
+        SteadyLights steady;
         FieldReaders readers;
         RID upload; ///< the rasteriser's
         /// What reflections see, one a probe; empty where nothing is glossy.
@@ -67,6 +66,7 @@ private:
     };
 
     [[nodiscard]] FieldGeometry wanted_geometry(RID scenario, Rest rest);
+    /// All of it steady.
     [[nodiscard]] radiosity::Lighting wanted_lighting(RID scenario, const FieldGeometry& geometry) const;
     [[nodiscard]] FieldReaders wanted_readers(RID scenario, const FieldGeometry& geometry);
     Status upload_volumes(Field& field, const FieldJob& job);

@@ -33,7 +33,7 @@ bool FieldJob::make_parts() {
         }
         parts.transport = *made;
         parts.map = std::make_shared<const radiosity::FieldMap>(radiosity::make_field_map(*parts.transport));
-        parts.direct = std::make_shared<radiosity::DirectCache>();
+        parts.memory = std::make_shared<radiosity::LightMemory>();
     }
     if (!parts.air) {
         parts.air = std::make_shared<const std::vector<radiosity::AirPoints>>(
@@ -44,7 +44,7 @@ bool FieldJob::make_parts() {
 
 void FieldJob::solve() {
     const radiosity::Solution solution =
-        radiosity::solve(*parts.transport, lighting, stop, parts.direct.get());
+        radiosity::solve(*parts.transport, lighting, stop, parts.memory.get());
     if (stop) {
         return;
     }

@@ -59,7 +59,7 @@ struct FieldParts {
     std::shared_ptr<const radiosity::Transport> transport;
     std::shared_ptr<const radiosity::FieldMap> map;
     std::shared_ptr<const std::vector<radiosity::AirPoints>> air;
-    std::shared_ptr<radiosity::DirectCache> direct; ///< of the transport; the job's while there is one
+    std::shared_ptr<radiosity::LightMemory> memory; ///< of the transport; the job's while there is one
 };
 
 /// Work for the worker and what comes of it. Shared, so that neither side waits when the other goes.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "servers/radiosity/solver.h"
+#include "servers/radiosity/lighting.h"
 #include "servers/visual/instance_storage.h"
 #include "servers/visual/storage.h"
 

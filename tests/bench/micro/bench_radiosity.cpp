@@ -3,6 +3,7 @@
 #include "tests/bench/micro/room.h"
 
 #include "servers/radiosity/field_map.h"
+#include "servers/radiosity/for_all.h"
 #include "servers/radiosity/gather.h"
 #include "servers/radiosity/radiance_volume.h"
 #include "servers/radiosity/sky_bins.h"
@@ -79,33 +80,49 @@ void light_patches(benchmark::State& state) {
     const Lighting lighting = one_lamp();
     for (auto _ : state) {
         static_cast<void>(_);
-        benchmark::DoNotOptimize(DirectCache().gather(t, lighting.sources).data());
+        benchmark::DoNotOptimize(unit_light(t, lighting.sources[0]).data());
     }
     state.SetItemsProcessed(int64_t(state.iterations()) * int64_t(t.patches.size()));
 }
 BENCHMARK(light_patches)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A relight of one lamp, without the encoding.
-void solve_one_lamp(benchmark::State& state) {
+/// A relight of one lamp that moves, without the encoding.
+void solve_moving_lamp(benchmark::State& state) {
     const Transport& t = transport();
     Lighting lighting = one_lamp();
-    DirectCache cache;
+    lighting.sources[0].steady = false;
+    LightMemory memory;
     for (auto _ : state) {
         static_cast<void>(_);
-        lighting.sources[0].radiance *= 1.001f; // nothing is as it was
-        benchmark::DoNotOptimize(solve(t, lighting, kGoOn, &cache).bounces);
+        lighting.sources[0].position.x += 1e-4f;
+        benchmark::DoNotOptimize(solve(t, lighting, kGoOn, &memory).bounces);
     }
 }
-BENCHMARK(solve_one_lamp)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(solve_moving_lamp)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// The same of one that grows brighter.
+void solve_brighter_lamp(benchmark::State& state) {
+    const Transport& t = transport();
+    Lighting lighting = one_lamp();
+    LightMemory memory;
+    for (auto _ : state) {
+        static_cast<void>(_);
+        lighting.sources[0].radiance *= 1.001f;
+        benchmark::DoNotOptimize(solve(t, lighting, kGoOn, &memory).bounces);
+    }
+}
+BENCHMARK(solve_brighter_lamp)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Links are read one after the other, radiance of what they name from anywhere.
 void gather_all_links(benchmark::State& state) {
     const Transport& t = transport();
-    const Lighting lighting = one_lamp();
     const std::vector<Rgb4> leaving(t.patches.size(), gi::splat(1.0f));
+    const std::vector<Rgb4> first(t.records.patch.size(), Rgb4{});
+    std::vector<Rgb4> arriving(first.size());
     for (auto _ : state) {
         static_cast<void>(_);
-        benchmark::DoNotOptimize(gather_records(t, lighting, leaving).data());
+        add_bounce(t, leaving, first, arriving);
+        benchmark::DoNotOptimize(arriving.data());
     }
     report_bytes(state, t.records.links.targets.size() * (sizeof(uint32_t) + sizeof(Rgb4)));
 }
@@ -113,12 +130,11 @@ BENCHMARK(gather_all_links)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void bounce_once(benchmark::State& state) {
     const Transport& t = transport();
-    const std::vector<Rgb4> first(t.records.patch.size(), gi::splat(1.0f));
-    const std::vector<Rgb4> now(first.size(), gi::splat(1.0f));
-    std::vector<Rgb4> next(first.size());
+    const std::vector<Rgb4> now(t.records.patch.size(), gi::splat(1.0f));
+    std::vector<Rgb4> next(now.size());
     for (auto _ : state) {
         static_cast<void>(_);
-        step_bounce(t, first, now, next);
+        for_all(next.size(), [&](size_t r) { next[r] = exchanged(t, now, r); });
         benchmark::DoNotOptimize(next.data());
     }
     report_bytes(state, t.exchanges.size() * (sizeof(Transport::Exchange) + sizeof(Rgb4)));
@@ -128,9 +144,11 @@ BENCHMARK(bounce_once)->Unit(benchmark::kMillisecond)->UseRealTime();
 void interpolate_patches(benchmark::State& state) {
     const Transport& t = transport();
     const std::vector<Rgb4> records(t.records.patch.size(), gi::splat(1.0f));
+    std::vector<Rgb4> out(t.patches.size());
     for (auto _ : state) {
         static_cast<void>(_);
-        benchmark::DoNotOptimize(at_patches(t, records).data());
+        for_all(out.size(), [&](size_t p) { out[p] = at_patch(t, records, {}, p); });
+        benchmark::DoNotOptimize(out.data());
     }
     report_bytes(state, t.records.shares.size() * (sizeof(Records::Share) + sizeof(Rgb4)) +
                             t.patches.size() * (sizeof(Rgb4) + sizeof(uint32_t)));

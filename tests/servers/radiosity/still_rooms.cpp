@@ -1,5 +1,7 @@
 #include "tests/servers/radiosity/still_rooms.h"
 
+#include "servers/radiosity/sky_bins.h"
+
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
@@ -249,9 +251,9 @@ float mean_over(const Patches& patches, std::span<const glm::vec3> values,
 std::vector<glm::vec3> received(const Transport& t, const Lighting& lighting, const Solution& solution) {
     std::vector<glm::vec3> out = solution.arriving;
     for (const Source& s : lighting.sources) {
-        const std::vector<glm::vec3> direct = direct_light(t, s);
+        const std::vector<float> unit = unit_light(t, s);
         for (size_t p = 0; p < out.size(); ++p) {
-            out[p] += direct[p];
+            out[p] += unit[p] * s.radiance;
         }
     }
     return out;

@@ -1,6 +1,7 @@
 #include "tests/servers/radiosity/still_rooms.h"
 
 #include "servers/radiosity/air_light.h"
+#include "servers/radiosity/sky_bins.h"
 
 #include "core/threads.h"
 
@@ -174,7 +175,7 @@ TEST_SUITE("servers/radiosity/laws") {
             }
             glm::dvec3 gathered(0.0);
             for (uint32_t target : t.records.links.patches_of(point)) {
-                gathered += once.leaving[target] / float(point.ray_count);
+                gathered += rgb(once.leaving[target]) / float(point.ray_count);
             }
             error += gathered - glm::dvec3(once.arriving[p]);
             sum += gathered;

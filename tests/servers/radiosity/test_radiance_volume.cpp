@@ -20,7 +20,7 @@ TEST_SUITE("servers/radiosity/radiance_volume") {
         const ProbeBox probe = tests::probe_with_cells(0.05f, 1.4f);
         const LitRoom room(builder.take(), {&probe, 1});
         Solution solution = room.solve(tests::darkness());
-        std::fill(solution.leaving.begin(), solution.leaving.end(), glm::vec3(3.0f));
+        std::fill(solution.leaving.begin(), solution.leaving.end(), gi::splat(3.0f));
         const RadianceVolume volume = make_radiance_volume(*room.transport, 0, solution);
         CHECK(volume.range == doctest::Approx(3.0f)); // a mean weighted by area
         size_t shown = 0, partly_covered = 0;

@@ -2,6 +2,8 @@
 
 #include "drivers/dummy/dummy_rasterizer.h"
 
+#include "servers/visual/rest.h"
+
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -138,6 +140,23 @@ TEST_SUITE("servers/visual/field_driver") {
         REQUIRE(f.server.instance_set_transform(f.box, at(0.1f, 0, 0)));
         draw_changes();
         CHECK(f.draw().opaque.at(0).is_still);
+    }
+
+    TEST_CASE("a lamp that moved ends in the bytes of one that was always there, and then nothing is done") {
+        FieldFixture f;
+        f.server.settle();
+        const uint64_t lit = f.light_hash();
+        for (int i = 1; i <= 5; ++i) {
+            REQUIRE(f.server.instance_set_transform(f.lamp, at(1.5f - 0.1f * float(i % 5), 1.5f, 1.5f)));
+            f.draw();
+        }
+        f.server.settle();
+        CHECK(f.light_hash() == lit);
+        CHECK(f.uploads_after([&] {
+            for (uint64_t i = 0; i < 2 * kRestSteps; ++i) {
+                f.draw();
+            }
+        }) == 0);
     }
 
     TEST_CASE("what moves leaves the field until it rests") {
