@@ -57,8 +57,7 @@ glm::vec4 Material::albedo_and_alpha(const SurfaceCoordinates& at) const noexcep
         albedo *= albedo_map_->sample(uv1(at));
     }
     if (desc_.vertex_color_use_as_albedo) {
-        const glm::vec3 rgb(at.color);
-        albedo *= glm::vec4(desc_.vertex_color_is_srgb ? linear_from_srgb(rgb) : rgb, at.color.a);
+        albedo *= at.color;
     }
     return albedo;
 }

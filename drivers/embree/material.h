@@ -15,7 +15,7 @@ namespace cl::embree {
 /// What vertices say of a point on a surface.
 struct SurfaceCoordinates {
     glm::vec2 uv{0.0f}, uv2{0.0f};
-    glm::vec4 color{1.0f};
+    glm::vec4 color{1.0f}; ///< linear
 };
 
 /// A material ready to be asked about points: the twin of drivers/gles3/draw_block.cpp and

@@ -1,5 +1,7 @@
 #include "drivers/embree/traced_item.h"
 
+#include "core/math/color.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -14,8 +16,9 @@ glm::mat3 normal_matrix(const WorldItem& item) noexcept {
     return item.material->ensure_correct_normals ? glm::transpose(glm::inverse(basis)) : basis;
 }
 
-glm::vec4 rgba(const Color& c) noexcept {
-    return {c.r, c.g, c.b, c.a};
+/// Converted at the vertices, as Godot does, so that what is between them is mixed as light.
+glm::vec4 linear(const Color& c, bool is_srgb) noexcept {
+    return {is_srgb ? linear_from_srgb(c.rgb()) : c.rgb(), c.a};
 }
 
 } // namespace
@@ -55,8 +58,9 @@ SurfaceCoordinates TracedItem::coordinates(uint32_t triangle, const glm::vec2& b
         at.uv2 = interpolate(arrays.uv2s[t.x], arrays.uv2s[t.y], arrays.uv2s[t.z], b);
     }
     if (!arrays.colors.empty()) {
-        at.color =
-            interpolate(rgba(arrays.colors[t.x]), rgba(arrays.colors[t.y]), rgba(arrays.colors[t.z]), b);
+        const bool is_srgb = material.desc().vertex_color_is_srgb;
+        at.color = interpolate(linear(arrays.colors[t.x], is_srgb), linear(arrays.colors[t.y], is_srgb),
+                               linear(arrays.colors[t.z], is_srgb), b);
     }
     return at;
 }

@@ -19,11 +19,12 @@
 #pragma stage vertex
 #include "lib/vertex_inputs.glsl"
 #include "lib/scene_vertex.glsl"
+#include "lib/color_space.glsl"
 out vec3 v_position; // view space [m]
 out vec3 v_normal;   // not of unit length
 out vec3 v_tangent;
 out vec3 v_binormal;
-out vec4 v_color;
+out vec4 v_color;    // linear
 out vec2 v_uv;
 out vec2 v_uv2;
 
@@ -33,7 +34,8 @@ void main() {
     v_normal = normal_from_local * a_normal;
     v_tangent = normal_from_local * a_tangent.xyz;
     v_binormal = normal_from_local * (cross(a_normal, a_tangent.xyz) * a_tangent.w);
-    v_color = a_color;
+    // Once a vertex, as Godot does: mixed as light is, not as codes are.
+    v_color = vec4(mix(a_color.rgb, linear_from_srgb(a_color.rgb), draw_vertex_color_srgb), a_color.a);
     v_uv = a_uv;
     v_uv2 = a_uv2;
 }

@@ -26,8 +26,7 @@ vec4 material_albedo() {
 #ifdef ALBEDO_MAP
     albedo *= texture(albedo_map, material_uv());
 #endif
-    vec3 vertex = mix(v_color.rgb, linear_from_srgb(v_color.rgb), draw_vertex_color_srgb);
-    return albedo * mix(vec4(1.0), vec4(vertex, v_color.a), draw_vertex_color);
+    return albedo * mix(vec4(1.0), v_color, draw_vertex_color);
 }
 
 /// The mesh's own normal, on the side that is seen.
