@@ -22,13 +22,19 @@ namespace {
 constexpr double kIdleWait_s = 1.0 / 144.0; // so that what moves after a while starts in time
 constexpr double kMaxStep_s = 0.1;          // after a stall the camera must not jump through the scene
 
-/// Puts the time of a frame in the title twice a second.
+/// Puts the mean time of a frame in the title: twice a second, and when the picture comes to rest.
 class FrameTimeTitle {
 public:
     void frame(drivers::Window& window, double frame_ms) {
         sum_ms_ += frame_ms;
         ++frames_;
-        if (sum_ms_ < 500.0) {
+        if (sum_ms_ >= 500.0) {
+            show(window);
+        }
+    }
+    /// Nothing if no frame was timed since it was shown last.
+    void show(drivers::Window& window) {
+        if (frames_ == 0) {
             return;
         }
         const double mean_ms = sum_ms_ / frames_;
@@ -76,6 +82,7 @@ Status run_frames(Stage& stage, const Options& options, std::vector<double>& tim
         stage.tree().step(delta_s);
         idle = !options.frames && !input.uncovered && !stage.tree().has_changed();
         if (idle) {
+            title.show(window);
             continue;
         }
         if (Status drawn = stage.tree().draw(); !drawn) {
