@@ -5,6 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <condition_variable>
@@ -66,6 +67,11 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain),
                       [&body](const tbb::blocked_range<size_t>& part) { body(part.begin(), part.end()); });
 #endif
+}
+
+void leave_one_core(const std::function<void()>& f) {
+    tbb::task_arena arena(std::max(thread_count() - 1, 1));
+    arena.execute(f);
 }
 
 /// One plain thread: a task scheduler would be free to run jobs side by side or not at all.

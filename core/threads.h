@@ -25,6 +25,10 @@ void parallel_for_each(size_t count, const F& f) {
     });
 }
 
+/// Calls f on this thread; parallel work in it leaves one core to whoever draws meanwhile, where there are
+/// two or more.
+void leave_one_core(const std::function<void()>& f);
+
 /// One job at a time off the calling thread, in the order they were pushed.
 class WorkerQueue {
 public:

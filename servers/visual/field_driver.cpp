@@ -130,14 +130,14 @@ Status FieldDriver::step(Rest rest) {
         const FieldReaders readers = wanted_readers(scenario, geometry);
         if (!field.parts.transport || geometry != field.geometry || lighting != field.lighting ||
             !field.readers.include(readers)) {
-            start(field, std::move(geometry), std::move(lighting), readers);
+            start(field, std::move(geometry), std::move(lighting), readers, rest);
         }
     }
     return errors.status();
 }
 
 void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lighting lighting,
-                        const FieldReaders& readers) {
+                        const FieldReaders& readers, Rest rest) {
     auto job = std::make_shared<FieldJob>();
     job->readers = readers;
     job->is_new = !field.parts.transport || geometry != field.geometry;
@@ -163,7 +163,15 @@ void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lightin
     job->geometry = std::move(geometry);
     job->lighting = std::move(lighting);
     field.job = job;
-    worker_.push([job] { job->run(); });
+    // Frames that are drawn meanwhile should take as long as any.
+    const bool draws_meanwhile = rest == Rest::AfterSteps && field.upload;
+    worker_.push([job, draws_meanwhile] {
+        if (draws_meanwhile) {
+            leave_one_core([&job] { job->run(); });
+        } else {
+            job->run();
+        }
+    });
 }
 
 Status FieldDriver::take_in(Field& field) {

@@ -72,7 +72,7 @@ private:
     Status upload_volumes(Field& field, const FieldJob& job);
     [[nodiscard]] bool rests(RID rid, uint64_t look, Rest rest);
     void start(Field& field, FieldGeometry geometry, radiosity::Lighting lighting,
-               const FieldReaders& readers);
+               const FieldReaders& readers, Rest rest);
     Status take_in(Field& field);
     void drop(Field& field);
     /// Tells the instances of a field that they are in it.

@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -46,6 +49,29 @@ TEST_SUITE("core/threads") {
         parallel_for(1000, 1,
                      [&](size_t, size_t) { elsewhere = elsewhere || std::this_thread::get_id() != caller; });
         CHECK_FALSE(elsewhere);
+        set_thread_count(0);
+    }
+
+    TEST_CASE(
+        "work that leaves one core is done in full, by one thread less than there are") {
+        for (int count : {1, 2, 4}) {
+            CAPTURE(count);
+            set_thread_count(count);
+            const std::thread::id caller = std::this_thread::get_id();
+            std::mutex mutex;
+            std::set<std::thread::id> workers;
+            std::atomic<size_t> done = 0;
+            leave_one_core([&] {
+                CHECK(std::this_thread::get_id() == caller);
+                parallel_for(1000, 1, [&](size_t begin, size_t end) {
+                    done += end - begin;
+                    const std::lock_guard lock(mutex);
+                    workers.insert(std::this_thread::get_id());
+                });
+            });
+            CHECK(done == 1000);
+            CHECK(workers.size() <= size_t(std::max(count - 1, 1)));
+        }
         set_thread_count(0);
     }
 
