@@ -380,16 +380,39 @@ def glowing():
     return s
 
 
+def leaf(material, z, colors=()):
+    """A surface of one upright square of 1 m. colors: of its corners, counted from the lower left on clockwise."""
+    corners = ", ".join(map(str, (-.5, -.5, z, -.5, .5, z, .5, .5, z, .5, -.5, z)))
+    painted = "PoolColorArray( %s )" % ", ".join(map(str, sum(colors, ()))) if colors else "null"
+    return ('{\n"primitive": 4,\n"arrays": [ PoolVector3Array( %s ), PoolVector3Array( %s ), null, %s, '
+            'PoolVector2Array( 0, 1, 0, 0, 1, 0, 1, 1 ), null, null, null, PoolIntArray( 0, 1, 2, 0, 2, 3 ) ],'
+            '\n"material": %s,\n"morph_arrays": [  ]\n}' % (corners, ", ".join(["0, 0, 1"] * 4), painted, material))
+
+
+def painted():
+    """Vertex colours: as albedo or not, sRGB or linear, alone and times a texture; they do not enter the bake."""
+    s = Room()
+    s.shell(6, 3, 4)
+    hues = ((1, .1, .1, 1), (.1, 1, .1, 1), (.1, .1, 1, 1), (.9, .9, .9, 1))
+    checker = s.texture(16, 16, lambda x, y: (250, 200, 40) if (x // 4 + y // 4) % 2 else (20, 60, 200))
+    on = dict(vertex_color_use_as_albedo=True)
+    kinds = [{}, on, dict(on, vertex_color_is_srgb=True), dict(on, vertex_color_is_srgb=True, albedo_texture=checker),
+             dict(on, vertex_color_is_srgb=True, flags_unshaded=True)]
+    for i, kind in enumerate(kinds):
+        mesh = s.resource("ArrayMesh", **{"surfaces/0": leaf(s.diffuse((1, 1, 1), params_cull_mode=2, **kind), 0, hues)})
+        s.mesh("Leaf%d" % i, mesh, None, (-2.2 + 1.1 * i, 1.2, -.4), 10)
+    s.omni("Lamp", (0, 2.6, 1.2), 1.4)
+    s.camera()
+    s.probe(extents=(3.4, 1.9, 2.4), subdiv=1)
+    return s
+
+
 def overrides():
     """A mesh of two surfaces and what may replace their materials; layers, LOD and shadow flags do not keep it from baking."""
     s = Room()
     s.shell(6, 3, 4)
-    leaf = lambda x0, y0, z: ", ".join(map(str, (x0, y0, z, x0, y0 + 1, z, x0 + 1, y0 + 1, z, x0 + 1, y0, z)))
-    surface = lambda m, z: ('{\n"primitive": 4,\n"arrays": [ PoolVector3Array( %s ), PoolVector3Array( %s ), null, null, '
-                            'PoolVector2Array( 0, 1, 0, 0, 1, 0, 1, 1 ), null, null, null, PoolIntArray( 0, 1, 2, 0, 2, 3 ) ],'
-                            '\n"material": %s,\n"morph_arrays": [  ]\n}' % (leaf(-.5, -.5, z), ", ".join(["0, 0, 1"] * 4), m))
-    mesh = s.resource("ArrayMesh", **{"surfaces/0": surface(s.diffuse(RED, params_cull_mode=2), 0),
-                                      "surfaces/1": surface(s.diffuse(GREEN, params_cull_mode=2), .3)})
+    mesh = s.resource("ArrayMesh", **{"surfaces/0": leaf(s.diffuse(RED, params_cull_mode=2), 0),
+                                      "surfaces/1": leaf(s.diffuse(GREEN, params_cull_mode=2), .3)})
     turned = s.diffuse(BLUE, params_cull_mode=2)
     checker = s.texture(16, 16, lambda x, y: (250, 200, 40) if (x // 4 + y // 4) % 2 else (20, 60, 200))
     s.mesh("Own", mesh, None, (-2.2, .8, -.4), 20)
@@ -452,7 +475,7 @@ def live_probe():
 
 SCENES = [rotated, far_away, textured, emissive, uneven, many_lights, moving_lights, three_probes, propagation, ranges, biases,
           interiors, materials, surfaces, open_sky, two_suns, compressed, nested, glowing,
-          overrides, spots, blended, live_probe]
+          overrides, painted, spots, blended, live_probe]
 
 
 def write_scenes(folder, names=()):

@@ -1,6 +1,6 @@
-/* Preloaded into a program (LD_PRELOAD), writes every upload of a 3D texture's level to $RECORD_VOLUMES/ID_LEVEL.bin:
- * eight int32 (texture name, level, width, height, depth, bytes, format, 0) and RGBA8 texels. A later upload of the
- * same level replaces the file. Levels of DXT5 blocks, which Mesa refuses for 3D textures (Godot then draws black), are
+/* Preloaded into a program (LD_PRELOAD), writes the levels of its 3D textures, as they are when it ends, to
+ * $RECORD_VOLUMES/ID_LEVEL.bin: eight int32 (texture name, level, width, height, depth, bytes, format, 0) and RGBA8
+ * texels. A level is as large as the boxes reach that were uploaded. Levels of DXT5 blocks, which Mesa refuses for 3D textures (Godot then draws black), are
  * decoded and uploaded as RGBA8, so that the program shows what a graphics card would.
  * Works whatever way the program finds its GL functions. */
 #define _GNU_SOURCE
@@ -27,26 +27,75 @@ static Image real_image;
 static Lookup real_lookup;
 static Lookup real_egl_lookup;
 
-static void record(int level, int w, int h, int d, int bytes, unsigned format, const void *data) {
+typedef struct Level {
+    struct Level *next;
+    int texture, level, size[3];
+    uint8_t *rgba8; /* x fastest, then y, then z */
+} Level;
+
+static Level *levels;
+
+static size_t texel_count(const int size[3]) { return (size_t)size[0] * size[1] * size[2]; }
+
+/* Copies rows of a box from one array to another. */
+static void copy_box(uint8_t *to, const int to_size[3], const int at[3], const uint8_t *from, const int size[3]) {
+    for (int z = 0; z < size[2]; ++z)
+        for (int y = 0; y < size[1]; ++y)
+            memcpy(to + (((size_t)(at[2] + z) * to_size[1] + at[1] + y) * to_size[0] + at[0]) * 4,
+                   from + ((size_t)z * size[1] + y) * size[0] * 4, (size_t)size[0] * 4);
+}
+
+static void grow(Level *level, const int size[3]) {
+    static const int origin[3] = {0, 0, 0};
+    uint8_t *larger = calloc(texel_count(size), 4);
+    copy_box(larger, size, origin, level->rgba8, level->size);
+    free(level->rgba8);
+    level->rgba8 = larger;
+    memcpy(level->size, size, sizeof level->size);
+}
+
+static void record(int level, const int at[3], const int size[3], const void *rgba8) {
+    int texture = 0, reach[3], must_grow = 0;
+    if (!rgba8 || !real_get_integerv)
+        return;
+    real_get_integerv(kBinding3D, &texture);
+    Level *known = levels;
+    while (known && (known->texture != texture || known->level != level))
+        known = known->next;
+    if (!known) {
+        known = calloc(1, sizeof *known);
+        *known = (Level){levels, texture, level, {0, 0, 0}, NULL};
+        levels = known;
+    }
+    for (int i = 0; i < 3; ++i) {
+        reach[i] = at[i] + size[i] > known->size[i] ? at[i] + size[i] : known->size[i];
+        must_grow |= reach[i] > known->size[i];
+    }
+    if (must_grow)
+        grow(known, reach);
+    copy_box(known->rgba8, known->size, at, rgba8, size);
+}
+
+__attribute__((destructor)) static void write_levels(void) {
     const char *folder = getenv("RECORD_VOLUMES");
-    int32_t head[8] = {0, level, w, h, d, bytes, (int32_t)format, 0};
-    char path[4096];
-    if (!folder || !data || !real_get_integerv)
-        return;
-    real_get_integerv(kBinding3D, &head[0]);
-    snprintf(path, sizeof path, "%s/%d_%d.bin", folder, head[0], level);
-    FILE *file = fopen(path, "wb");
-    if (!file)
-        return;
-    fwrite(head, sizeof head, 1, file);
-    fwrite(data, (size_t)bytes, 1, file);
-    fclose(file);
+    for (const Level *l = levels; folder && l; l = l->next) {
+        const size_t bytes = texel_count(l->size) * 4;
+        const int32_t head[8] = {l->texture, l->level, l->size[0], l->size[1], l->size[2], (int32_t)bytes, kRgba, 0};
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%d_%d.bin", folder, l->texture, l->level);
+        FILE *file = fopen(path, "wb");
+        if (!file)
+            continue;
+        fwrite(head, sizeof head, 1, file);
+        fwrite(l->rgba8, bytes, 1, file);
+        fclose(file);
+    }
 }
 
 static void sub_image(unsigned target, int level, int x, int y, int z, int w, int h, int d, unsigned format, unsigned type,
                       const void *data) {
     if (target == kTexture3D && format == kRgba && type == kUnsignedByte)
-        record(level, w, h, d, w * h * d * 4, format, data);
+        record(level, (int[3]){x, y, z}, (int[3]){w, h, d}, data);
     real_sub_image(target, level, x, y, z, w, h, d, format, type, data);
 }
 
@@ -90,7 +139,7 @@ static int show_blocks(int level, int w, int h, int d, int bytes, unsigned forma
         for (int row = 0; row < 4; ++row)
             memcpy(rgba + (((size_t)z * h + y + row) * w + x) * 4, texels[row * 4], 16);
     }
-    record(level, w, h, d, bytes * 4, kRgba, rgba);
+    record(level, (int[3]){0, 0, 0}, (int[3]){w, h, d}, rgba);
     real_image(kTexture3D, level, kRgba8, w, h, d, 0, kRgba, kUnsignedByte, rgba);
     free(rgba);
     return 1;

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import conelight
 import godot
+import godot_project
 import page
 import pictures
 import probe_data
@@ -46,7 +47,7 @@ def scenes_of(paths, work):
 
 def godot_run(scene, folder, size, recorder, records, **more):
     """godot.run() with its volumes recorded, or what it made last time of the same."""
-    words = json.dumps([size, sorted(more.items()), godot.rendering_settings(scene, "")], default=str)
+    words = json.dumps([size, sorted(more.items()), godot_project.rendering_settings(scene, "")], default=str)
     words += godot.SCRIPT + volumes.SOURCE.read_text()
     key = hashlib.sha256(words.encode() + scene.read_bytes()).hexdigest()
     kept = folder.with_name(folder.name + ".json")
