@@ -52,8 +52,7 @@ TEST_SUITE("core/threads") {
         set_thread_count(0);
     }
 
-    TEST_CASE(
-        "work that leaves one core is done in full, by one thread less than there are") {
+    TEST_CASE("work that leaves one core is done in full, by one thread less than there are") {
         for (int count : {1, 2, 4}) {
             CAPTURE(count);
             set_thread_count(count);
