@@ -21,13 +21,13 @@ Status ProbeDriver::step() {
     for (RID rid : instances_.probes()) {
         const Instance& instance = *instances_.get(rid);
         ProbeMachine& machine = *instance.probe;
-        const uint64_t uploads_known = machine.uploads();
-        const double work_before = machine.total_work_ms(), uploads_before = machine.total_upload_ms();
+        const uint64_t uploads_before = machine.uploads();
+        const double work_before_ms = machine.total_work_ms(), upload_before_ms = machine.total_upload_ms();
         errors.note(machine.step(wanted(instance), rasterizer_, run_));
-        const double uploaded = machine.total_upload_ms() - uploads_before;
+        const double uploaded = machine.total_upload_ms() - upload_before_ms;
         total_upload_ms_ += uploaded;
-        uploads_ += machine.uploads() - uploads_known;
-        total_relight_ms_ += machine.total_work_ms() - work_before + uploaded;
+        uploads_ += machine.uploads() - uploads_before;
+        total_relight_ms_ += machine.total_work_ms() - work_before_ms + uploaded;
     }
     if (was_at_rest && any_in_flight()) {
         round_start_relight_ms_ = relight_before;
