@@ -5,7 +5,7 @@ from pathlib import Path
 
 STAGES = ("vertex", "fragment")
 INCLUDE = re.compile(r'\s*#\s*include\s*"([^"]*)"\s*$')
-PRAGMA = re.compile(r"\s*#\s*pragma\s+(flags|validate|stage)\b\s*(.*?)\s*$")
+PRAGMA = re.compile(r"\s*#\s*pragma\s+(flags|validate|stage|share)\b\s*(.*?)\s*$")
 FLAG = re.compile(r"[A-Z][A-Z0-9_]*$")
 CONDITION = re.compile(r"\s*#\s*(?:ifdef|ifndef|if|elif)\b(.*)$")
 DEFINE = re.compile(r"\s*#\s*define\s+([A-Za-z_]\w*)")
@@ -43,6 +43,7 @@ class Program:
     files: list = field(default_factory=list)  # by file number; paths from the repository's root
     flags: list = field(default_factory=list)
     validate: list = field(default_factory=list)  # lists of flags
+    shares: dict = field(default_factory=dict)  # sampler -> the one whose unit it takes
     stages: dict = field(default_factory=dict)
 
     def key(self, flags):
@@ -113,6 +114,11 @@ class Reader:
             if len(words) != 1 or words[0] not in STAGES:
                 raise fault(f"expected a stage, vertex or fragment, found \"{' '.join(words)}\"")
             self.current = words
+            return
+        if kind == "share":
+            if len(words) != 2:
+                raise fault(f"expected two samplers, found \"{' '.join(words)}\"")
+            program.shares[words[0]] = words[1]
             return
         for word in words:
             if kind == "flags" and (not FLAG.match(word) or word in program.flags):

@@ -163,11 +163,17 @@ def reflect(program):
     interface = Interface()
     for stage in STAGES:
         StageReader(program, stage).read(interface)
-    unit, placed = 0, []
+    unit, units = 0, {}
     for d in interface.samplers:
-        placed.append((d, unit))
-        unit += d.count
+        if d.name not in program.shares:
+            units[d.name] = unit
+            unit += d.count
+    names = [d.name for d in interface.samplers]
+    for name, other in program.shares.items():
+        if name not in names or other not in units:
+            raise ShaderError(program.files[0], 1, f"expected samplers of this program to share a unit, found \"{name} {other}\"")
+        units[name] = units[other]
     if unit > MAX_UNITS:
         raise ShaderError(program.files[0], 1, f"expected at most {MAX_UNITS} texture units, found {unit}")
-    interface.samplers = placed
+    interface.samplers = [(d, units[d.name]) for d in interface.samplers]
     return interface

@@ -6,6 +6,7 @@ One file in shaders/ is one program. It is plain GLSL ES 3.00 but for these line
                                       `#define GRAY 1` before all else. Test with #ifdef.
     #pragma validate GRAY             a variant that the build checks with glslangValidator; one line a set, an
                                       empty line is the variant without flags. At least one line.
+    #pragma share A B                 sampler A takes the unit of B: no variant uses both.
     #pragma stage vertex              what follows, up to the next stage, is the vertex stage ...
     #pragma stage fragment            ... the fragment stage. What is before the first stage is in both.
     #include "lib/x.glsl"             the text of shaders/lib/x.glsl, once a stage; libraries may include libraries.

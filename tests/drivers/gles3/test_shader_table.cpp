@@ -109,6 +109,19 @@ TEST_SUITE("drivers/gles3/shader_table") {
               "lib/a.glsl:2: error: expected a flag or a #define, found \"GREY\"\n");
     }
 
+    TEST_CASE("samplers that no variant uses together may share a unit") {
+        Shaders s;
+        const std::string two = "uniform sampler2D a[2];\nuniform sampler3D b;\nuniform sampler2D c;\n";
+        const std::string header = s.header("#pragma share b c\n" + two + kRight);
+        CHECK(has(header, "gl::Sampler<X, gl::Texture2D> a{0, 2};"));
+        CHECK(has(header, "gl::Sampler<X, gl::Texture3D> b{2, 1};"));
+        CHECK(has(header, "gl::Sampler<X, gl::Texture2D> c{2, 1};"));
+        CHECK(s.check("#pragma share b\n" + two + kRight) ==
+              "x.glsl:1: error: expected two samplers, found \"b\"\n");
+        CHECK(s.check("#pragma share b d\n" + two + kRight) ==
+              "x.glsl:1: error: expected samplers of this program to share a unit, found \"b d\"\n");
+    }
+
     TEST_CASE("an error of GLSL is told where it is on disk, with the variant that has it") {
         Shaders s;
         s.write(
