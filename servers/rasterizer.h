@@ -35,9 +35,13 @@ struct TextureParams {
     bool filter = true;
 };
 
+/// Who looks into a volume: cones of GI probes, or reflections of a GI field.
+enum class GIVolumeUse : uint8_t { Cones, Reflections };
+
 struct GIVolumeDesc {
     glm::ivec3 size{0}; ///< mip 0 [cells], powers of two
     int mip_count = 1;
+    GIVolumeUse use = GIVolumeUse::Cones;
 };
 
 /// A scenario's light as patches of surface and points of air in its probes receive it

@@ -69,17 +69,23 @@ uint32_t map_bits(const MaterialDesc& m, uint32_t format) noexcept {
     return bits;
 }
 
-/// What varies for the whole frame. GI too: surfaces without probes take no rounds of its loops, which is
-/// cheaper than a second set of variants.
+/// Surfaces without probes take no rounds of GI's loops, which is cheaper than a second set of variants.
+uint32_t gi_bits(const DrawItem& item, const FrameFeatures& f, Prepass prepass) noexcept {
+    if (f.gi_probes == 0) {
+        return 0u;
+    }
+    if (prepass == Prepass::Gathered && is_settled(*item.material)) {
+        return Scene::kGiGathered;
+    }
+    return (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo) | (f.gi_field ? Scene::kGiField : 0u);
+}
+
+/// What varies for the whole frame.
 uint32_t frame_bits(const FrameFeatures& f) noexcept {
     const uint32_t lights = (f.directional ? Scene::kDirectional : 0u) | (f.omni ? Scene::kOmni : 0u) |
                             (f.omni_faces ? Scene::kOmniFaces : 0u) | (f.spot ? Scene::kSpot : 0u);
     const uint32_t filter = f.shadow_filter <= 0 ? Scene::kPcf1 : (f.shadow_filter >= 2 ? Scene::kPcf13 : 0u);
-    const uint32_t gi = f.gi_probes == 0 ? 0u
-                                         : (f.gi_probes == 1 ? Scene::kGiOne : Scene::kGiTwo) |
-                                               (f.gi_field ? Scene::kGiField : 0u);
-    return lights | (lights != 0 ? filter : 0u) | gi | (f.sky ? Scene::kSky : 0u) |
-           (f.fog ? Scene::kFog : 0u);
+    return lights | (lights != 0 ? filter : 0u) | (f.sky ? Scene::kSky : 0u) | (f.fog ? Scene::kFog : 0u);
 }
 
 gl::Cull cull_of(CullMode mode) noexcept {
@@ -144,6 +150,18 @@ bool writes_depth(const MaterialDesc& m) noexcept {
     return m.depth_draw_mode != DepthDrawMode::Never;
 }
 
+bool is_settled(const MaterialDesc& m) noexcept {
+    return writes_depth(m) && !is_opaque_prepass(m);
+}
+
+uint32_t cone_points_variant(const MaterialDesc& m, uint32_t format) noexcept {
+    using shaders::ConePoints;
+    const uint32_t maps = map_bits(m, format);
+    return (has_holes(m) ? ConePoints::kAlphaScissor : 0u) |
+           ((maps & Scene::kNormalMap) != 0 ? ConePoints::kNormalMap : 0u) |
+           (m.roughness_texture ? ConePoints::kMoreMaps : 0u);
+}
+
 uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeatures& features,
                        Prepass prepass) noexcept {
     const MaterialDesc& m = *item.material;
@@ -154,16 +172,16 @@ uint32_t scene_variant(const DrawItem& item, uint32_t format, const FrameFeature
     }
     const bool in_air = features.gi_field && features.gi_probes > 0 && !item.is_still;
     return scissor | map_bits(m, format) | reflection_bits(m) | frame_bits(features) |
-           (in_air ? Scene::kGiAir : 0u) |
+           gi_bits(item, features, prepass) | (in_air ? Scene::kGiAir : 0u) |
            (features.gi_field && features.gi_probes > 0 && m.is_glossy() ? Scene::kGiGloss : 0u);
 }
 
 gl::DrawState opaque_state(const DrawItem& item, Prepass prepass) noexcept {
     const MaterialDesc& m = *item.material;
     gl::DrawState s;
-    const bool is_settled = prepass == Prepass::Done && writes_depth(m) && !is_opaque_prepass(m);
-    s.depth_test = is_settled ? gl::DepthTest::Equal : gl::DepthTest::LessEqual;
-    s.write = is_settled || !writes_depth(m) ? gl::WriteMask::Color : gl::WriteMask::ColorAndDepth;
+    const bool settled = prepass != Prepass::None && is_settled(m);
+    s.depth_test = settled ? gl::DepthTest::Equal : gl::DepthTest::LessEqual;
+    s.write = settled || !writes_depth(m) ? gl::WriteMask::Color : gl::WriteMask::ColorAndDepth;
     s.cull = cull_of(m.cull_mode);
     s.front_face = front_face(item);
     if (is_opaque_prepass(m)) {

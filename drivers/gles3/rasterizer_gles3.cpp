@@ -5,6 +5,7 @@
 #include "drivers/gles3/gi_volume_storage.h"
 #include "drivers/gles3/gl/state.h"
 #include "drivers/gles3/mesh_storage.h"
+#include "drivers/gles3/passes/cone_pass.h"
 #include "drivers/gles3/passes/depth_pass.h"
 #include "drivers/gles3/passes/directional_shadow_pass.h"
 #include "drivers/gles3/passes/local_shadow_pass.h"
@@ -16,6 +17,8 @@
 #include "drivers/gles3/target_storage.h"
 #include "drivers/gles3/texture_storage.h"
 
+#include "servers/cones/gather.h"
+
 #include <chrono>
 #include <string>
 #include <utility>
@@ -25,8 +28,13 @@ namespace cl::gles3 {
 namespace {
 
 /// Shading twice costs more than drawing depth twice as soon as cones are traced.
-Prepass prepass_for(const Frame& frame) noexcept {
-    return frame.gi_mode != GIMode::Off && !frame.gi_probes.empty() ? Prepass::Done : Prepass::None;
+Prepass prepass_for(const Frame& frame, const RenderTarget& target, ConePath cones) noexcept {
+    if (frame.gi_mode == GIMode::Off || frame.gi_probes.empty()) {
+        return Prepass::None;
+    }
+    const bool gathers =
+        cones == ConePath::Gathered && frame.gi_mode == GIMode::Cones && cone_buffers_fit(target);
+    return gathers ? Prepass::Gathered : Prepass::Done;
 }
 
 /// The sky that lights the frame; nullptr if none does.
@@ -45,6 +53,7 @@ const StoredSky* lighting_sky(const Frame& frame, const SkyStorage& skies) noexc
 struct RasterizerGLES3::Impl {
     std::unique_ptr<drivers::GLContext> context;
     std::unique_ptr<gl::State> state;
+    ConePath cones; ///< Gathered or InShader
     TextureStorage textures;
     MeshStorage meshes;
     GIVolumeStorage volumes;
@@ -58,6 +67,7 @@ struct RasterizerGLES3::Impl {
     DirectionalShadowPass directional_shadows{};
     SceneDraws draws{};
     DepthPass depth_pass{};
+    ConePass cone_pass{};
     SkyPass sky_pass{};
     ToneMapPass tone_map_pass{};
     FrameStats stats{};
@@ -95,7 +105,23 @@ struct RasterizerGLES3::Impl {
     }
 
     Status draw_frame(RenderTarget& target, const Frame& frame);
+    Status draw_prepass(RenderTarget& target, const Frame& frame, const shaders::FrameBlock& frame_block,
+                        const Resources& resources);
 };
+
+Status RasterizerGLES3::Impl::draw_prepass(RenderTarget& target, const Frame& frame,
+                                           const shaders::FrameBlock& frame_block,
+                                           const Resources& resources) {
+    switch (last_prepass) {
+    case Prepass::None:
+        return {};
+    case Prepass::Done:
+        return depth_pass.draw(target, draws, resources);
+    case Prepass::Gathered:
+        break;
+    }
+    return cone_pass.draw(target, frame, frame_block, draws, resources);
+}
 
 Status RasterizerGLES3::Impl::draw_frame(RenderTarget& target, const Frame& frame) {
     const Resources resources{textures, meshes, volumes, fields, skies, no_vertices};
@@ -108,14 +134,13 @@ Status RasterizerGLES3::Impl::draw_frame(RenderTarget& target, const Frame& fram
         return directional.error();
     }
     const StoredSky* sky = lighting_sky(frame, skies);
-    if (Status s = draws.prepare(frame, make_frame_block(frame, *directional), *local, resources); !s) {
+    const shaders::FrameBlock frame_block = make_frame_block(frame, *directional);
+    if (Status s = draws.prepare(frame, frame_block, *local, resources); !s) {
         return s;
     }
-    last_prepass = prepass_for(frame);
-    if (last_prepass == Prepass::Done) {
-        if (Status s = depth_pass.draw(target, draws, resources); !s) {
-            return s;
-        }
+    last_prepass = prepass_for(frame, target, cones);
+    if (Status s = draw_prepass(target, frame, frame_block, resources); !s) {
+        return s;
     }
     const ScenePass::Inputs inputs{frame,
                                    frame_features(frame, sky != nullptr),
@@ -146,7 +171,7 @@ RasterizerGLES3::~RasterizerGLES3() {
 }
 
 Expected<std::unique_ptr<RasterizerGLES3>>
-RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
+RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context, ConePath cone_path) {
     if (Status s = context->make_current(); !s) {
         return s.error();
     }
@@ -154,11 +179,15 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
     if (!state->capabilities().color_buffer_float) {
         return Error{ErrorCode::Unsupported, "the driver cannot draw to RGBA16F (EXT_color_buffer_float)"};
     }
+    if (cone_path == ConePath::Best) {
+        const bool gathers = state->capabilities().software && cones::can_gather();
+        cone_path = gathers ? ConePath::Gathered : ConePath::InShader;
+    }
     Expected<TextureStorage> textures = TextureStorage::create();
     if (!textures) {
         return textures.error();
     }
-    Expected<GIVolumeStorage> volumes = GIVolumeStorage::create();
+    Expected<GIVolumeStorage> volumes = GIVolumeStorage::create(cone_path);
     if (!volumes) {
         return volumes.error();
     }
@@ -174,7 +203,7 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context) {
     if (!scene_pass) {
         return scene_pass.error();
     }
-    std::unique_ptr<Impl> impl(new Impl{std::move(context), std::move(state), *std::move(textures),
+    std::unique_ptr<Impl> impl(new Impl{std::move(context), std::move(state), cone_path, *std::move(textures),
                                         MeshStorage{}, *std::move(volumes), *std::move(fields),
                                         *std::move(skies), TargetStorage{}, gl::VertexArray::create_empty(),
                                         *std::move(scene_pass)});
@@ -273,7 +302,7 @@ void RasterizerGLES3::present() {
 
 RendererCounters RasterizerGLES3::counters() const {
     return {impl_->scene_pass.variant_count(), impl_->casters.variant_count(),
-            impl_->last_prepass == Prepass::Done};
+            impl_->last_prepass != Prepass::None, impl_->last_prepass == Prepass::Gathered};
 }
 
 drivers::GLContext& RasterizerGLES3::context() noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/gl_context.h"
+#include "drivers/gles3/cone_path.h"
 
 #include "servers/rasterizer.h"
 
@@ -14,7 +15,8 @@ namespace cl::gles3 {
 struct RendererCounters {
     size_t scene_variants = 0; ///< scene programs compiled so far
     size_t caster_variants = 0;
-    bool prepass = false; ///< of the last frame
+    bool prepass = false;        ///< of the last frame
+    bool cones_gathered = false; ///< ... whose cones were traced on the CPU
 };
 
 /// The renderer on OpenGL ES 3.0: forward shading, shadow maps, voxel cone tracing (ARCHITECTURE.md has the
@@ -23,9 +25,10 @@ struct RendererCounters {
 class RasterizerGLES3 final : public Rasterizer {
 public:
     /// @param context  where to draw; owned from now on.
+    /// @param cone_path  where the cones of GI probes are traced; Gathered needs cones::can_gather()
     /// @return Unsupported if the driver cannot render to half floats, or what a shader's compiler said.
     [[nodiscard]] static Expected<std::unique_ptr<RasterizerGLES3>>
-    create(std::unique_ptr<drivers::GLContext> context);
+    create(std::unique_ptr<drivers::GLContext> context, ConePath cone_path = ConePath::Best);
     ~RasterizerGLES3() override;
     RasterizerGLES3(const RasterizerGLES3&) = delete;
     RasterizerGLES3& operator=(const RasterizerGLES3&) = delete;

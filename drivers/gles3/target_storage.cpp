@@ -59,7 +59,8 @@ Expected<RenderTarget> make_target(glm::ivec2 size, Output output) {
                         *std::move(scene),
                         *std::move(depth_only),
                         std::move(picture),
-                        std::move(out)};
+                        std::move(out),
+                        {}};
 }
 
 /// GL reads from the bottom row up, images have their top row first.
@@ -94,6 +95,41 @@ Image read_picture(const RenderTarget& target) {
 }
 
 } // namespace
+
+bool cone_buffers_fit(const RenderTarget& target) noexcept {
+    const int most = gl::State::current().capabilities().max_texture_size;
+    return target.size.x <= most && 2 * target.size.y <= most;
+}
+
+Status make_cone_buffers(RenderTarget& target) {
+    if (target.cones) {
+        return {};
+    }
+    const auto floats = [](glm::ivec2 size, std::string_view label) {
+        return gl::Texture2D::create({.size = size,
+                                      .format = gl::Format::RGBA32F,
+                                      .sampler = {.filter = gl::Filter::Nearest},
+                                      .label = label});
+    };
+    Expected<gl::Texture2D> places = floats(target.size, "cone places");
+    Expected<gl::Texture2D> shapes = floats(target.size, "cone shapes");
+    Expected<gl::Texture2D> light = floats({target.size.x, 2 * target.size.y}, "cone light");
+    for (const Expected<gl::Texture2D>* texture : {&places, &shapes, &light}) {
+        if (!*texture) {
+            return texture->error();
+        }
+    }
+    Expected<gl::Framebuffer> points = gl::Framebuffer::create(
+        {.colors = {{{&*places}, {&*shapes}}}, .depth = {&target.depth}, .label = "cone points"});
+    if (!points) {
+        return points.error();
+    }
+    const size_t pixels = static_cast<size_t>(target.size.x) * static_cast<size_t>(target.size.y);
+    target.cones.emplace(ConeBuffers{*std::move(places), *std::move(shapes), *std::move(points),
+                                     *std::move(light), std::vector<glm::vec4>(pixels),
+                                     std::vector<glm::vec4>(pixels), std::vector<glm::vec4>(2 * pixels)});
+    return {};
+}
 
 Expected<RID> TargetStorage::create(glm::ivec2 size) {
     Expected<RenderTarget> target = make_target(size, Output::Picture);

@@ -10,9 +10,21 @@
 #include "core/image.h"
 #include "core/rid.h"
 
+#include <glm/vec4.hpp>
+
 #include <optional>
+#include <vector>
 
 namespace cl::gles3 {
+
+/// A target's surfaces as cones on the CPU start from them, and the light that these gather.
+struct ConeBuffers {
+    gl::Texture2D places, shapes; ///< RGBA32F: shaders/cone_points.glsl
+    gl::Framebuffer points;       ///< both, with the target's depth
+    gl::Texture2D light; ///< RGBA32F, twice as high: diffuse below, specular above (servers/cones/gather.h)
+    std::vector<glm::vec4> place_pixels, shape_pixels,
+        light_pixels; ///< as the CPU sees them, bottom row first
+};
 
 /// What a viewport is drawn into: scene radiance with depth, and the picture that tone mapping makes of it.
 struct RenderTarget {
@@ -23,7 +35,13 @@ struct RenderTarget {
     gl::Framebuffer depth_only;           ///< depth alone, for the depth prepass
     std::optional<gl::Texture2D> picture; ///< RGBA8, sRGB-encoded by the shader; empty for the window
     gl::Framebuffer output;               ///< the picture, or the window's framebuffer
+    std::optional<ConeBuffers> cones{};   ///< once cones are traced on the CPU
 };
+
+/// Whether the driver's textures are large enough for cones on the CPU.
+[[nodiscard]] bool cone_buffers_fit(const RenderTarget& target) noexcept;
+/// Makes the target's `cones` if there are none yet. @return Unsupported if memory ran out.
+Status make_cone_buffers(RenderTarget& target);
 
 class TargetStorage {
 public:

@@ -219,8 +219,8 @@ Status FieldDriver::upload_volumes(Field& field, const FieldJob& job) {
     for (size_t i = 0; i < job.volumes.size(); ++i) {
         const std::vector<radiosity::RadianceVolume::Level>& levels = job.volumes[i].levels;
         if (i == field.volumes.size()) {
-            const Expected<RID> made =
-                rasterizer_.gi_volume_create({.size = levels[0].size, .mip_count = int(levels.size())});
+            const Expected<RID> made = rasterizer_.gi_volume_create(
+                {.size = levels[0].size, .mip_count = int(levels.size()), .use = GIVolumeUse::Reflections});
             if (!made) {
                 return made.error();
             }

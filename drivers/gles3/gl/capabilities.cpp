@@ -15,6 +15,14 @@ int get_int(GLenum name) {
     return value;
 }
 
+/// Mesa's rasterisers and the browsers', by what they call themselves.
+bool runs_on_cpu() {
+    const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string_view renderer = text ? text : "";
+    return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos ||
+           renderer.find("SwiftShader") != renderer.npos;
+}
+
 } // namespace
 
 Capabilities Capabilities::query() {
@@ -27,6 +35,7 @@ Capabilities Capabilities::query() {
     // Desktop 3.0 has these two in core; its extension lists need not repeat them.
     c.color_buffer_float = c.desktop || GLAD_GL_EXT_color_buffer_float;
     c.float_linear = c.desktop || GLAD_GL_OES_texture_float_linear;
+    c.software = runs_on_cpu();
     c.debug_labels = GLAD_GL_KHR_debug && glObjectLabelKHR && glPushDebugGroupKHR && glPopDebugGroupKHR;
     if (GLAD_GL_EXT_texture_filter_anisotropic) {
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &c.max_anisotropy);

@@ -11,6 +11,7 @@ struct Capabilities {
     bool desktop = false;               ///< OpenGL core profile, not ES: see workarounds.h
     bool color_buffer_float = false;    ///< RGBA16F, R11F_G11F_B10F, RGBA32F can be rendered to
     bool float_linear = false;          ///< 32-bit float textures can be filtered
+    bool software = false;              ///< the driver runs shaders on the CPU
     bool debug_labels = false;          ///< KHR_debug: object labels and pass groups
     float max_anisotropy = 1.0f;        ///< 1: not there
     int max_texture_size = 2048;        ///< 2D edge [texels]

@@ -136,8 +136,14 @@ std::vector<uint8_t> Framebuffer::read_rgba8(const Rect& rect, int index) const 
 
 std::vector<float> Framebuffer::read_rgba32f(const Rect& rect, int index) const {
     std::vector<float> pixels(static_cast<size_t>(rect.size.x) * static_cast<size_t>(rect.size.y) * 4);
-    read(rect, index, GL_FLOAT, pixels.data());
+    read_rgba32f(rect, index, pixels);
     return pixels;
+}
+
+void Framebuffer::read_rgba32f(const Rect& rect, int index, std::span<float> into) const {
+    CL_ASSERT(into.size() == static_cast<size_t>(rect.size.x) * static_cast<size_t>(rect.size.y) * 4,
+              "memory for the rectangle's pixels");
+    read(rect, index, GL_FLOAT, into.data());
 }
 
 } // namespace cl::gles3::gl

@@ -52,6 +52,8 @@ public:
     /// 8 bit: of normalised formats, 4 bytes a pixel. Floats: of float formats, 4 a pixel.
     [[nodiscard]] std::vector<uint8_t> read_rgba8(const Rect& rect, int index = 0) const;
     [[nodiscard]] std::vector<float> read_rgba32f(const Rect& rect, int index = 0) const;
+    /// ... into memory of the caller's, which they must fill.
+    void read_rgba32f(const Rect& rect, int index, std::span<float> into) const;
 
 private:
     Framebuffer() = default;

@@ -13,7 +13,7 @@ namespace cl::gles3 {
 struct Resources {
     const TextureStorage& textures;
     const MeshStorage& meshes;
-    const GIVolumeStorage& volumes;
+    GIVolumeStorage& volumes; ///< makes textures when asked for them
     const GIFieldStorage& fields;
     const SkyStorage& skies;
     const gl::VertexArray& no_vertices; ///< for fullscreen draws

@@ -9,9 +9,9 @@ void SceneDraws::add(std::span<const DrawItem> items, const Frame& frame, LightS
     out.clear();
     for (const DrawItem& item : items) {
         if (const StoredSurface* surface = resources.meshes.surface(item.mesh, item.surface)) {
-            const int block =
-                draws_.push(make_draw_block(item, frame.camera.world_from_camera, frame.gi_probes));
-            out.push_back({&item, surface, block, sets.set_of(item)});
+            shaders::DrawBlock block = make_draw_block(item, frame.camera.world_from_camera, frame.gi_probes);
+            block.draw_cone_set = static_cast<float>(cone_sets_.number_of(item));
+            out.push_back({&item, surface, draws_.push(block), sets.set_of(item)});
         }
     }
 }
@@ -22,6 +22,7 @@ Status SceneDraws::prepare(const Frame& frame, const shaders::FrameBlock& frame_
     frame_.clear();
     draws_.clear();
     light_sets_.clear();
+    cone_sets_.clear();
     frame_.push(frame_block);
     std::vector<shaders::LocalLight> lights(frame.lights.size());
     for (size_t i = 0; i < lights.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/gles3/block_stream.h"
+#include "drivers/gles3/cone_sets.h"
 #include "drivers/gles3/light_sets.h"
 #include "drivers/gles3/passes/resources.h"
 #include "drivers/gles3/shaders.h"
@@ -27,6 +28,8 @@ public:
     Status prepare(const Frame& frame, const shaders::FrameBlock& frame_block,
                    std::span<const std::optional<PlacedLocalShadow>> local_shadows,
                    const Resources& resources);
+    /// The GI probes of the opaque surfaces, by the numbers in their blocks.
+    [[nodiscard]] const ConeSets& cone_sets() const noexcept { return cone_sets_; }
     /// In the order of the frame.
     [[nodiscard]] std::span<const SceneDraw> opaque() const noexcept { return opaque_; }
     [[nodiscard]] std::span<const SceneDraw> transparent() const noexcept { return transparent_; }
@@ -41,6 +44,7 @@ private:
     BlockStream<shaders::FrameBlock> frame_;
     BlockStream<shaders::DrawBlock> draws_;
     BlockStream<shaders::LightSetBlock> light_sets_;
+    ConeSets cone_sets_;
     std::vector<SceneDraw> opaque_, transparent_;
 };
 

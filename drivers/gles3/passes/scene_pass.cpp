@@ -22,9 +22,11 @@ void bind_material(const MaterialDesc& m, const TextureStorage& textures) {
 }
 
 /// A probe's volume, or an empty one: its bounds of 0 keep it from being looked at.
-const gl::Texture3D& volume_of(const DrawItem& item, size_t slot, const ScenePass::Inputs& inputs) {
+const gl::Texture3D& volume_of(const DrawItem& item, size_t slot, const ScenePass::Inputs& inputs,
+                               uint32_t variant) {
     const int index = item.gi_probes[slot];
-    if (index < 0 || static_cast<size_t>(index) >= inputs.frame.gi_probes.size()) {
+    if ((variant & S::kGiGathered) != 0 || index < 0 ||
+        static_cast<size_t>(index) >= inputs.frame.gi_probes.size()) {
         return inputs.resources.volumes.empty();
     }
     const RID rid = inputs.frame.gi_probes[static_cast<size_t>(index)].volume;
@@ -78,8 +80,8 @@ Status ScenePass::draw_surface(gl::Pass& pass, const SceneDraw& draw, const Inpu
     }
     inputs.draws.bind(draw);
     bind_material(*draw.item->material, inputs.resources.textures);
-    Program::bind(S::gi_volume_1, volume_of(*draw.item, 0, inputs));
-    Program::bind(S::gi_volume_2, volume_of(*draw.item, 1, inputs));
+    Program::bind(S::gi_volume_1, volume_of(*draw.item, 0, inputs, variant));
+    Program::bind(S::gi_volume_2, volume_of(*draw.item, 1, inputs, variant));
     pass.draw(**program, draw.surface->vertex_array, state, draw.surface->range);
     ++stats.draw_calls;
     stats.triangles += draw.surface->triangles;
@@ -94,8 +96,11 @@ Status ScenePass::draw_opaque(const RenderTarget& target, const Inputs& inputs, 
                    .target = &target.scene,
                    .colors = {keeps ? gl::Load::Keep : gl::Load::Clear},
                    .clear_colors = {glm::vec4(shading::background_color(frame), 1.0f)},
-                   .depth = prepass == Prepass::Done ? gl::Load::Keep : gl::Load::Clear});
+                   .depth = prepass != Prepass::None ? gl::Load::Keep : gl::Load::Clear});
     bind_frame_inputs(inputs);
+    if (prepass == Prepass::Gathered) {
+        Program::bind(S::cone_light, target.cones->light);
+    }
     // Blended surfaces with an opaque prepass come last, over all that is solid.
     for (const bool blended : {false, true}) {
         for (const SceneDraw& draw : inputs.draws.opaque()) {

@@ -1,7 +1,7 @@
 // scene.glsl -- forward shading of one surface: all its lights, ambient light or GI, emission, fog
 // output   linear radiance [W m^-2 sr^-1], straight alpha; before exposure and tone mapping
 // source   spec gi-shading section 7 (composition), scene-classes sections 8 and 14.3
-#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR GI_GLOSS SKY FOG DIRECTIONAL OMNI OMNI_FACES SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
+#pragma flags ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR UNSHADED GI_ONE GI_TWO GI_FIELD GI_AIR GI_GLOSS GI_GATHERED SKY FOG DIRECTIONAL OMNI OMNI_FACES SPOT PCF1 PCF13 DIFFUSE_LAMBERT DIFFUSE_WRAP DIFFUSE_OREN_NAYAR DIFFUSE_TOON SPECULAR_BLINN SPECULAR_PHONG SPECULAR_TOON SPECULAR_DISABLED
 #pragma validate
 #pragma validate UNSHADED ALBEDO_MAP ALPHA_SCISSOR
 #pragma validate ALBEDO_MAP NORMAL_MAP MORE_MAPS ALPHA_SCISSOR GI_TWO SKY FOG DIRECTIONAL OMNI SPOT
@@ -9,9 +9,11 @@
 #pragma validate GI_TWO GI_FIELD SKY OMNI OMNI_FACES
 #pragma validate GI_ONE GI_FIELD GI_AIR DIRECTIONAL
 #pragma validate GI_TWO GI_FIELD GI_GLOSS ALBEDO_MAP NORMAL_MAP MORE_MAPS SKY DIRECTIONAL OMNI OMNI_FACES SPOT
+#pragma validate GI_GATHERED OMNI
 #pragma validate SKY OMNI PCF1 DIFFUSE_WRAP SPECULAR_BLINN
 #pragma validate FOG SPOT PCF13 DIFFUSE_OREN_NAYAR SPECULAR_PHONG
 #pragma validate DIRECTIONAL DIFFUSE_TOON SPECULAR_TOON
+#pragma share cone_light field_light
 
 #include "lib/frame_block.glsl"
 #include "lib/draw_block.glsl"
@@ -59,6 +61,9 @@ uniform sampler2D sky_irradiance_map;
 uniform sampler3D sky_radiance_map;
 uniform sampler3D gi_volume_1;
 uniform sampler3D gi_volume_2;
+#ifdef GI_GATHERED
+uniform sampler2D cone_light; // by pixel: diffuse below, specular above; a: share of what is beyond the probes
+#endif
 
 #include "lib/light_set_block.glsl"
 #include "lib/brdf.glsl"
@@ -110,6 +115,12 @@ void gather_gi(Surface s, vec3 reflection, inout vec3 ambient, inout vec3 enviro
 #endif
     ambient = sum.diffuse + ambient * (1.0 - sum.share);
     environment = sum.specular + environment * (1.0 - sum.share);
+#elif defined(GI_GATHERED)
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 diffuse = texelFetch(cone_light, pixel, 0);
+    vec4 specular = texelFetch(cone_light, pixel + ivec2(0, textureSize(cone_light, 0).y / 2), 0);
+    ambient = draw_gi_count > 0 ? diffuse.rgb + ambient * diffuse.a : ambient;
+    environment = draw_gi_count > 0 ? specular.rgb + environment * specular.a : environment;
 #elif defined(GI_ONE) || defined(GI_TWO)
     GIPoint at = GIPoint(s.position, s.normal, reflection, s.roughness, ambient, environment);
     GISum sum = GISum(vec4(0.0), vec4(0.0));

@@ -46,5 +46,6 @@ layout(std140) uniform Draw {
     int draw_receives_shadows;
     int draw_directional_mask; // bit i: directional light i counts
     int draw_gi_count; // of the probes below that reach the instance; 0: it keeps its ambient light
+    float draw_cone_set; // 1 + number of those probes among the sets whose light is gathered on the CPU; 0: none
     GIProbe draw_gi[2];
 };
