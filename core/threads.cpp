@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -128,6 +129,13 @@ void WorkerQueue::wait() {
     std::unique_lock lock(impl_->mutex);
     CL_ASSERT(std::this_thread::get_id() != impl_->thread.get_id(), "a job waits for its own queue");
     impl_->changed.wait(lock, [this] { return impl_->jobs.empty(); });
+}
+
+bool WorkerQueue::wait_for(double most_ms) {
+    std::unique_lock lock(impl_->mutex);
+    CL_ASSERT(std::this_thread::get_id() != impl_->thread.get_id(), "a job waits for its own queue");
+    const std::chrono::duration<double, std::milli> most(most_ms);
+    return impl_->changed.wait_for(lock, most, [this] { return impl_->jobs.empty(); });
 }
 
 } // namespace cl

@@ -38,6 +38,8 @@ public:
     ~WorkerQueue(); ///< waits for the jobs that were pushed
     void push(std::function<void()> job);
     void wait(); ///< until all pushed jobs are done
+    /// ... or so much time has passed. @return whether they are
+    bool wait_for(double most_ms);
 
 private:
     struct Impl;

@@ -21,9 +21,10 @@ namespace cl {
 // Frame at a time.
 
 struct RasterizerInfo {
-    std::string driver;      ///< "osmesa", "egl", "window", "dummy"
-    std::string renderer;    ///< what the driver calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string api_version; ///< "OpenGL ES 3.2 Mesa 22.3.6"
+    std::string driver;        ///< "osmesa", "egl", "window", "dummy"
+    std::string renderer;      ///< what the driver calls itself: "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string api_version;   ///< "OpenGL ES 3.2 Mesa 22.3.6"
+    bool draws_on_cpu = false; ///< on all its cores, that is
 };
 
 enum class TextureColorSpace : uint8_t { Linear, Srgb };

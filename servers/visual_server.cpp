@@ -64,6 +64,19 @@ void VisualServer::Impl::compile_shaders_meanwhile() {
     });
 }
 
+/// Where pixels are drawn on the CPU, light and picture share its cores: side by side each is late by chance,
+/// one after the other all frames take the same time, and show light that is a frame younger. So new light is
+/// waited for here, as long as half a picture takes at most; what needs longer goes on beside the next one.
+Status VisualServer::Impl::let_light_come() {
+    const bool is_auto = settings.gi_mode == GIMode::Auto;
+    if (!lights_by_gi() || !rasterizer->info().draws_on_cpu ||
+        !(is_auto ? fields.is_relighting() : !probes.is_settled()) ||
+        !worker.wait_for(0.5 * frame_stats.gpu_ms)) {
+        return {};
+    }
+    return is_auto ? fields.take_in() : probes.step();
+}
+
 Status VisualServer::draw() {
     FirstError errors;
     bool to_window = false;
@@ -76,6 +89,7 @@ Status VisualServer::draw() {
         to_window = to_window || viewport.to_window;
     });
     errors.note(impl_->step_gi(Rest::AfterSteps));
+    errors.note(impl_->let_light_come());
     if (to_window) {
         impl_->rasterizer->present();
     }

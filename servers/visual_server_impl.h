@@ -49,6 +49,7 @@ struct VisualServer::Impl {
     /// False if GI is off or the rasteriser follows light itself.
     [[nodiscard]] bool lights_by_gi() const;
     Status step_gi(Rest rest);
+    Status let_light_come();
     [[nodiscard]] bool gi_is_settled();
     /// Grows whenever new light is there to be drawn.
     [[nodiscard]] uint64_t gi_uploads() const { return probes.uploads() + fields.uploads(); }

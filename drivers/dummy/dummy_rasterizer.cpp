@@ -85,7 +85,7 @@ DummyRasterizer::DummyRasterizer()
       fields_(first_slot(Kind::Field)) {}
 
 RasterizerInfo DummyRasterizer::info() const {
-    return {"dummy", "no graphics", "none"};
+    return {"dummy", "no graphics", "none", cpu_frame_ms_ > 0.0};
 }
 
 Expected<RID> DummyRasterizer::texture_create(const Image& image, const TextureParams&,
@@ -227,6 +227,7 @@ Status DummyRasterizer::draw(RID rid, const Frame& frame) {
         window_.size = frame.size;
     }
     stats_ = {};
+    stats_.gpu_ms = cpu_frame_ms_;
     for (std::span<const DrawItem> items : {frame.opaque, frame.transparent}) {
         for (const DrawItem& item : items) {
             const Mesh* mesh = meshes_.get(item.mesh);

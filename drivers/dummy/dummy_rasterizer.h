@@ -97,6 +97,8 @@ public:
     [[nodiscard]] const RecordedFrame* last_frame() const noexcept { return frame_ ? &*frame_ : nullptr; }
 
     /// What the next frames are to hold.
+    /// As if frames were drawn on the CPU, each in so much time.
+    void set_draws_on_cpu(double frame_ms) { cpu_frame_ms_ = frame_ms; }
     void set_frame_contents(FrameContents contents) { contents_ = contents; }
 
     /// The next call of this kind fails with `error` and does nothing.
@@ -138,6 +140,7 @@ private:
     std::optional<RecordedFrame> frame_;
     std::optional<Failure> failure_;
     FrameStats stats_;
+    double cpu_frame_ms_ = 0.0; ///< 0: not drawn on the CPU
     FrameContents contents_ = FrameContents::InView;
     Target window_;
 };

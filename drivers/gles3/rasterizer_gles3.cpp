@@ -215,7 +215,7 @@ RasterizerGLES3::create(std::unique_ptr<drivers::GLContext> context, ConePath co
 
 RasterizerInfo RasterizerGLES3::info() const {
     return {std::string(drivers::driver_name(impl_->context->kind())), impl_->context->renderer(),
-            impl_->context->api_version()};
+            impl_->context->api_version(), impl_->state->capabilities().software};
 }
 
 Expected<RID> RasterizerGLES3::texture_create(const Image& image, const TextureParams& params,

@@ -116,11 +116,9 @@ Status FieldDriver::step(Rest rest) {
         }
         at = lives ? std::next(at) : fields_.erase(at);
     }
+    errors.note(take_in());
     for (RID scenario : scenarios) {
         Field& field = fields_[scenario];
-        if (field.job && field.job->done) {
-            errors.note(take_in(field));
-        }
         if (field.job) {
             continue; // a change that comes meanwhile is found by comparison when it is done
         }
@@ -134,6 +132,21 @@ Status FieldDriver::step(Rest rest) {
         }
     }
     return errors.status();
+}
+
+Status FieldDriver::take_in() {
+    FirstError errors;
+    for (auto& [scenario, field] : fields_) {
+        if (field.job && field.job->done) {
+            errors.note(take_in(field));
+        }
+    }
+    return errors.status();
+}
+
+bool FieldDriver::is_relighting() const {
+    return std::any_of(fields_.begin(), fields_.end(),
+                       [](const auto& field) { return field.second.job && !field.second.job->is_new; });
 }
 
 void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lighting lighting,
@@ -164,7 +177,7 @@ void FieldDriver::start(Field& field, FieldGeometry geometry, radiosity::Lightin
     job->lighting = std::move(lighting);
     field.job = job;
     // Frames that are drawn meanwhile should take as long as any.
-    const bool draws_meanwhile = rest == Rest::AfterSteps && field.upload;
+    const bool draws_meanwhile = rest == Rest::AfterSteps && field.upload && job->is_new;
     worker_.push([job, draws_meanwhile] {
         if (draws_meanwhile) {
             leave_one_core([&job] { job->run(); });

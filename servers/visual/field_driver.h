@@ -32,6 +32,10 @@ public:
     void set_quality(Quality quality) noexcept { quality_ = quality; }
     /// Takes in what the worker finished and gives it what changed. Instances must be up to date.
     Status step(Rest rest = Rest::AfterSteps);
+    /// Takes in what the worker has finished, and starts nothing.
+    Status take_in();
+    /// True while light is being worked out for transport that is there.
+    [[nodiscard]] bool is_relighting() const;
     /// False while a step with Rest::AtOnce would do anything, now or once the worker is done.
     [[nodiscard]] bool is_settled();
 

@@ -2,8 +2,8 @@
 //
 // usage: pacing [FRAMES]
 // Prints for each GI mode median, percentiles and longest frame, how many took more than 1.5 times the
-// median, and how many relights came in. A frame is a step of the tree and its picture, as a game would run
-// them.
+// median, by how much frames differ from the one before, and how many relights came in. A frame is a step of
+// the tree and its picture, as a game would run them.
 #include "demo/offscreen_server.h"
 #include "demo/spinning_lamp_scene.h"
 
@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -66,16 +67,28 @@ Expected<Paces> run(GIMode mode, int frames) {
     return paces;
 }
 
+/// Median change from a frame to the next: what a slow spell of the machine, which lasts for many frames,
+/// tells little in.
+double judder_ms(const std::vector<double>& frames_ms) {
+    std::vector<double> steps{0.0};
+    for (size_t i = 1; i < frames_ms.size(); ++i) {
+        steps.push_back(std::abs(frames_ms[i] - frames_ms[i - 1]));
+    }
+    std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+    return steps[steps.size() / 2];
+}
+
 void print(const char* name, Paces paces) {
     std::vector<double>& f = paces.frames_ms;
+    const double judder = judder_ms(f);
     std::sort(f.begin(), f.end());
     const auto at = [&f](double part) { return f[size_t(part * double(f.size() - 1))]; };
     const double limit_ms = 1.5 * at(0.5);
     const auto over = f.end() - std::upper_bound(f.begin(), f.end(), limit_ms);
     std::printf("%-6s median %6.1f  95%% %6.1f  99%% %6.1f  longest %6.1f ms (%.2f x)  over 1.5 x: %d of %d  "
-                "relights %d\n",
+                "frame to frame %.1f ms  relights %d\n",
                 name, at(0.5), at(0.95), at(0.99), f.back(), f.back() / at(0.5), int(over), int(f.size()),
-                paces.relights);
+                judder, paces.relights);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -89,6 +90,17 @@ TEST_SUITE("core/threads") {
             CHECK(order[static_cast<size_t>(i)] == i);
         }
         CHECK(worker != std::this_thread::get_id());
+    }
+
+    TEST_CASE("waiting for a while ends when the jobs do, or when the while does") {
+        std::mutex held;
+        WorkerQueue queue;
+        CHECK(queue.wait_for(0.0)); // nothing was pushed
+        held.lock();
+        queue.push([&held] { const std::lock_guard lock(held); });
+        CHECK_FALSE(queue.wait_for(1.0));
+        held.unlock();
+        CHECK(queue.wait_for(60000.0));
     }
 
     TEST_CASE("jobs may push jobs, and the queue ends only when all are done") {

@@ -159,6 +159,19 @@ TEST_SUITE("servers/visual/field_driver") {
         }) == 0);
     }
 
+    TEST_CASE("where frames are drawn on the CPU light is waited for, and else it never is") {
+        for (const bool on_cpu : {false, true}) {
+            CAPTURE(on_cpu);
+            FieldFixture f;
+            f.dummy->set_draws_on_cpu(on_cpu ? 1e6 : 0.0);
+            f.server.settle();
+            f.dummy->forget_calls();
+            REQUIRE(f.server.instance_set_transform(f.lamp, at(1.4f, 1.5f, 1.5f)));
+            f.draw();
+            CHECK((f.dummy->count(CallKind::FieldUpload) > 0) == on_cpu);
+        }
+    }
+
     TEST_CASE("what moves leaves the field until it rests") {
         FieldFixture f;
         f.server.settle();

@@ -169,6 +169,20 @@ struct History {
 } // namespace
 
 TEST_SUITE("servers/visual/probe_driver") {
+    TEST_CASE("where frames are drawn on the CPU light is waited for, and else it never is") {
+        for (const bool on_cpu : {false, true}) {
+            CAPTURE(on_cpu);
+            ProbeFixture f;
+            f.dummy->set_draws_on_cpu(on_cpu ? 1e6 : 0.0);
+            const RID light = f.place_light(lamp());
+            f.server.settle();
+            f.dummy->forget_calls();
+            REQUIRE(f.server.instance_set_transform(light, at(0.1f, 0, 0)));
+            f.draw();
+            CHECK((f.dummy->count(CallKind::VolumeUpload) > 0) == on_cpu);
+        }
+    }
+
     TEST_CASE("after 200 random histories of edits the volume is, byte for byte, that of a fresh set-up") {
         int lit = 0;
         for (unsigned seed = 1; seed <= 200; ++seed) {
