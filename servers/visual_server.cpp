@@ -66,12 +66,14 @@ void VisualServer::Impl::compile_shaders_meanwhile() {
 
 /// Where pixels are drawn on the CPU, light and picture share its cores: side by side each is late by chance,
 /// one after the other all frames take the same time, and show light that is a frame younger. So new light is
-/// waited for here, as long as half a picture takes at most; what needs longer goes on beside the next one.
+/// waited for, no longer than the picture took; not at all where it will need more (beside a picture light
+/// took up to twice its time), which then goes on beside the pictures to come.
 Status VisualServer::Impl::let_light_come() {
     const bool is_auto = settings.gi_mode == GIMode::Auto;
-    if (!lights_by_gi() || !rasterizer->info().draws_on_cpu ||
-        !(is_auto ? fields.is_relighting() : !probes.is_settled()) ||
-        !worker.wait_for(0.5 * frame_stats.gpu_ms)) {
+    const double picture_ms = frame_stats.gpu_ms;
+    const double last_light_ms = is_auto ? fields.relight_ms() : probes.relight_ms();
+    if (!lights_by_gi() || !rasterizer->info().draws_on_cpu || last_light_ms > 2.0 * picture_ms ||
+        !(is_auto ? fields.is_relighting() : !probes.is_settled()) || !worker.wait_for(picture_ms)) {
         return {};
     }
     return is_auto ? fields.take_in() : probes.step();
