@@ -13,33 +13,14 @@
 #pragma stage vertex
 #include "lib/vertex_inputs.glsl"
 #include "lib/scene_vertex.glsl"
-out vec3 v_position;
-out vec3 v_normal;
-out vec3 v_tangent;
-out vec3 v_binormal;
-out vec4 v_color;
-out vec2 v_uv;
-out vec2 v_uv2;
+#include "lib/surface_vertex.glsl"
 
 void main() {
-    v_position = place_vertex();
-    mat3 normal_from_local = mat3(draw_normal_x.xyz, draw_normal_y.xyz, draw_normal_z.xyz);
-    v_normal = normal_from_local * a_normal;
-    v_tangent = normal_from_local * a_tangent.xyz;
-    v_binormal = normal_from_local * (cross(a_normal, a_tangent.xyz) * a_tangent.w);
-    v_color = a_color; // its alpha counts alone
-    v_uv = a_uv;
-    v_uv2 = a_uv2;
+    surface_vertex(a_color); // its alpha counts alone
 }
 
 #pragma stage fragment
-in vec3 v_position;
-in vec3 v_normal;
-in vec3 v_tangent;
-in vec3 v_binormal;
-in vec4 v_color;
-in vec2 v_uv;
-in vec2 v_uv2;
+#include "lib/surface_inputs.glsl"
 layout(location = 0) out vec4 out_place;
 layout(location = 1) out vec4 out_shape;
 

@@ -22,34 +22,15 @@
 #include "lib/vertex_inputs.glsl"
 #include "lib/scene_vertex.glsl"
 #include "lib/color_space.glsl"
-out vec3 v_position; // view space [m]
-out vec3 v_normal;   // not of unit length
-out vec3 v_tangent;
-out vec3 v_binormal;
-out vec4 v_color;    // linear
-out vec2 v_uv;
-out vec2 v_uv2;
+#include "lib/surface_vertex.glsl"
 
 void main() {
-    v_position = place_vertex();
-    mat3 normal_from_local = mat3(draw_normal_x.xyz, draw_normal_y.xyz, draw_normal_z.xyz);
-    v_normal = normal_from_local * a_normal;
-    v_tangent = normal_from_local * a_tangent.xyz;
-    v_binormal = normal_from_local * (cross(a_normal, a_tangent.xyz) * a_tangent.w);
     // Once a vertex, as Godot does: mixed as light is, not as codes are.
-    v_color = vec4(mix(a_color.rgb, linear_from_srgb(a_color.rgb), draw_vertex_color_srgb), a_color.a);
-    v_uv = a_uv;
-    v_uv2 = a_uv2;
+    surface_vertex(vec4(mix(a_color.rgb, linear_from_srgb(a_color.rgb), draw_vertex_color_srgb), a_color.a));
 }
 
 #pragma stage fragment
-in vec3 v_position;
-in vec3 v_normal;
-in vec3 v_tangent;
-in vec3 v_binormal;
-in vec4 v_color;
-in vec2 v_uv;
-in vec2 v_uv2;
+#include "lib/surface_inputs.glsl"
 layout(location = 0) out vec4 out_color;
 
 #include "lib/color_space.glsl"
