@@ -96,9 +96,9 @@ public:
     /// The last frame drawn; null before the first.
     [[nodiscard]] const RecordedFrame* last_frame() const noexcept { return frame_ ? &*frame_ : nullptr; }
 
-    /// What the next frames are to hold.
-    /// As if frames were drawn on the CPU, each in so much time.
+    /// As if frames were drawn on the CPU, each in so much time; 0: as if not.
     void set_draws_on_cpu(double frame_ms) { cpu_frame_ms_ = frame_ms; }
+    /// What the next frames are to hold.
     void set_frame_contents(FrameContents contents) { contents_ = contents; }
 
     /// The next call of this kind fails with `error` and does nothing.

@@ -4,8 +4,8 @@
 
 namespace cl::cones {
 
-/// One level of a volume. Plain data: the kernel is compiled for several processors and may share no inline
-/// function with the rest of the program.
+/// One level of a volume. Plain data: the kernel is compiled for other processors than all else, and may
+/// share no inline function with it.
 struct Level {
     const uint8_t* rgba8 =
         nullptr; ///< x fastest, then y, then z; the bytes of one more slice, row and texel follow

@@ -154,14 +154,14 @@ TEST_SUITE("servers/cones/gather") {
         if (!can()) {
             return;
         }
-        // Points lie so close that all eight are in one cell of most levels, but not of the finest.
+        // The eight of a block are in one cell of coarse levels, and seldom of fine ones.
         const FilledVolume filled = sparse(16);
         const cones::Volume volume = volume_of(filled);
         std::vector<cones::ConeSet> sets(2);
         sets[0].probes[0] = sets[1].probes[0] = probe_of(volume);
         Pixels together({16, 16});
         for (int i = 0; i < 256; ++i) {
-            together.places[size_t(i)] = {2.0f + 0.01f * float(i % 16), 3.0f + 0.01f * float(i / 16), 5.0f,
+            together.places[size_t(i)] = {2.0f + 0.2f * float(i % 16), 3.0f + 0.2f * float(i / 16), 5.0f,
                                           1.0f};
             together.shapes[size_t(i)] = {0.0f, 0.6f, 0.8f, 0.7f};
         }
