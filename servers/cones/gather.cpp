@@ -111,7 +111,8 @@ public:
     }
 
 private:
-    void gather(const std::array<Probe, 2>& probes, const Points& points, Sums& sums) const {
+    void gather([[maybe_unused]] const std::array<Probe, 2>& probes, [[maybe_unused]] const Points& points,
+                [[maybe_unused]] Sums& sums) const {
 #if defined(__x86_64__)
         gather_avx2(quality_, probes.data(), int(probes.size()), points, sums);
 #else

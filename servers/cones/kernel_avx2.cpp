@@ -306,7 +306,8 @@ struct Cell {
 };
 
 CL_INLINE int32_t texel_of(float scale, int32_t last, float uv, uint16_t& weight) {
-    const int32_t parts = _mm_cvtss_si32(_mm_set_ss(uv * scale)) - 128;
+    // Unsigned: what is no number becomes the least integer, and is clamped like any other.
+    const auto parts = int32_t(uint32_t(_mm_cvtss_si32(_mm_set_ss(uv * scale))) - 128u);
     const int32_t inside = parts < 0 ? 0 : (parts < last ? parts : last);
     weight = uint16_t((inside & 255) << 7);
     return inside >> 8;

@@ -28,7 +28,7 @@ public:
     Status prepare(const Frame& frame, const shaders::FrameBlock& frame_block,
                    std::span<const std::optional<PlacedLocalShadow>> local_shadows,
                    const Resources& resources);
-    /// The GI probes of the opaque surfaces, by the numbers in their blocks.
+    /// The GI probes of the surfaces, by the numbers in their blocks.
     [[nodiscard]] const ConeSets& cone_sets() const noexcept { return cone_sets_; }
     /// In the order of the frame.
     [[nodiscard]] std::span<const SceneDraw> opaque() const noexcept { return opaque_; }

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -237,6 +238,26 @@ TEST_SUITE("servers/cones/gather") {
         CHECK(pixels.specular[0] == glm::vec4(0.0f));
         CHECK(pixels.diffuse[1] == kUntouched);
         CHECK(pixels.diffuse[2] == kUntouched);
+    }
+
+    TEST_CASE("places, normals and roughnesses that are no numbers end like any other") {
+        if (!can()) {
+            return;
+        }
+        const FilledVolume filled = sparse(16);
+        const cones::Volume volume = volume_of(filled);
+        cones::ConeSet set;
+        set.probes[0] = probe_of(volume);
+        const float nan = std::numeric_limits<float>::quiet_NaN(),
+                    inf = std::numeric_limits<float>::infinity();
+        Pixels pixels({4, 1});
+        pixels.places = {
+            {nan, 8, 8, 1}, {8, 8, 8, 1}, {0, 0, 0, 1}, {8, 8, 8, 1}}; // the third: where the eye is
+        pixels.shapes = {{0, 1, 0, 1}, {0, 0, 0, 1}, {0, 1, 0, 0.5f}, {0, 1, 0, inf}};
+        pixels.gather(kHigh, {&set, 1});
+        CHECK(pixels.diffuse[0] == glm::vec4(0.0f)); // lies in no probe
+        CHECK(std::isfinite(pixels.diffuse[2].r));
+        CHECK(std::isfinite(pixels.specular[3].r));
     }
 
     TEST_CASE("two probes are weighted by how far a point is from their faces") {
